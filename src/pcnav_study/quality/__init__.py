@@ -1,0 +1,5 @@
+"""How far to trust a match."""
+
+from pcnav_study.quality.dirac import delta_similarity, null_level
+
+__all__ = ["delta_similarity", "null_level"]

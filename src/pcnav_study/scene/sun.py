@@ -1,0 +1,60 @@
+"""Where the sun stands, from place and time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pandas as pd
+import pvlib
+
+from pcnav_study.errors import InputError
+
+
+@dataclass(frozen=True)
+class SunPosition:
+    """Azimuth clockwise from north and zenith from the vertical, both in degrees."""
+
+    azimuth: float
+    zenith: float
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.zenith <= 180:
+            raise InputError(f"sun zenith {self.zenith} is not within 0 to 180 degrees")
+
+    @property
+    def is_up(self) -> bool:
+        """True above the geometric horizon."""
+        return self.zenith < 90
+
+
+def sun_position(time: str | pd.Timestamp, latitude: float, longitude: float) -> SunPosition:
+    """Sun position after the NREL algorithm of pvlib [1]_.
+
+    Parameters
+    ----------
+    time : str or Timestamp
+        With its time zone, e.g. "2016-06-21 09:30-05:00".
+    latitude, longitude : float
+        WGS 84, in degrees.
+
+    Raises
+    ------
+    InputError
+        If the time has no time zone: local noon and UTC noon are other suns.
+
+    References
+    ----------
+    .. [1] Reda and Andreas (2004), Solar Energy 76(5), 577-589.
+    """
+    stamp = pd.Timestamp(time)
+    if stamp.tzinfo is None:
+        raise InputError(f"time {time!r} has no time zone; add one, as in '{stamp}+00:00'")
+    row = pvlib.solarposition.get_solarposition(
+        pd.DatetimeIndex([stamp]), latitude, longitude, method="nrel_numpy"
+    ).iloc[0]
+    return SunPosition(float(row["azimuth"]), float(row["zenith"]))
+
+
+def azimuth_difference(one: SunPosition, other: SunPosition) -> float:
+    """Unsigned difference of azimuth, 0 to 180 degrees."""
+    return abs((one.azimuth - other.azimuth + 180) % 360 - 180)
