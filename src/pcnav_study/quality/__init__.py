@@ -1,5 +1,6 @@
 """How far to trust a match."""
 
+from pcnav_study.quality.alarm import is_alarm
 from pcnav_study.quality.dirac import delta_similarity, null_level
 
-__all__ = ["delta_similarity", "null_level"]
+__all__ = ["delta_similarity", "is_alarm", "null_level"]

@@ -44,7 +44,7 @@ class Grid:
                 f"image {image.name!r} has no CRS; write one with image.rio.write_crs()"
             )
         shape = (image.sizes["y"], image.sizes["x"])
-        return cls(image.rio.transform(recalc=False), shape, image.rio.crs.to_wkt())
+        return cls(_transform(image), shape, image.rio.crs.to_wkt())
 
     @classmethod
     def centred(
@@ -65,9 +65,8 @@ class Grid:
         """Coordinates of the pixel centres along y (rows,) and along x (columns,)."""
         t = self.transform
         rows, cols = self.shape
-        y: NDArray[np.float64] = float(t.f) + float(t.e) * (np.arange(rows) + 0.5)
-        x: NDArray[np.float64] = float(t.c) + float(t.a) * (np.arange(cols) + 0.5)
-        return y, x
+        row, col = np.arange(rows, dtype=np.float64), np.arange(cols, dtype=np.float64)
+        return t.f + t.e * (row + 0.5), t.c + t.a * (col + 0.5)
 
     def mesh(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """x and y of every pixel centre, each of the grid's shape."""
@@ -84,7 +83,7 @@ class Grid:
 
     def window(self, row: int, col: int, shape: tuple[int, int]) -> Grid:
         """The part of this grid (or beyond it) that starts at (row, col)."""
-        return Grid(self.transform * Affine.translation(col, row), shape, self.crs)
+        return Grid(self.transform @ Affine.translation(col, row), shape, self.crs)
 
     def to_wgs84(self, x: float, y: float) -> tuple[float, float]:
         """(latitude, longitude) in degrees of one map point."""
@@ -101,3 +100,19 @@ class Grid:
         array = xr.DataArray(values, dims=dims, coords={"y": y, "x": x}, name=name)
         written: xr.DataArray = array.rio.write_crs(self.crs).rio.write_transform(self.transform)
         return written
+
+
+def _transform(image: xr.DataArray) -> Affine:
+    """The transform as written, unless the image was sliced since; then from its coordinates."""
+    y, x = image["y"].values, image["x"].values
+    written = image.coords[image.rio.grid_mapping].attrs.get("GeoTransform")
+    if written is not None:
+        kept = Affine.from_gdal(*map(float, written.split()))
+        first = kept @ (0.5, 0.5)
+        last = kept @ (len(x) - 0.5, len(y) - 0.5)
+        if np.allclose(
+            [*first, *last], [x[0], y[0], x[-1], y[-1]], rtol=0, atol=1e-3 * abs(kept.a)
+        ):
+            return kept
+    dx, dy = (x[-1] - x[0]) / max(len(x) - 1, 1), (y[-1] - y[0]) / max(len(y) - 1, 1)
+    return Affine(dx, 0.0, x[0] - dx / 2, 0.0, dy, y[0] - dy / 2)

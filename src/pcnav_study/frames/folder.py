@@ -1,0 +1,91 @@
+"""A flight folder: what a user brings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import rasterio
+from rasterio.errors import RasterioIOError
+
+from pcnav_study.errors import InputError
+
+IMAGE_SUFFIXES = {".jpg", ".jpeg", ".png", ".tif", ".tiff"}
+LAYOUT = "frames/ with images, and a map such as reference.tif"
+
+
+@dataclass(frozen=True)
+class FlightFolder:
+    """The files of one flight; ``reference`` and ``dem`` may also be URLs GDAL reads."""
+
+    path: Path
+    frames: tuple[Path, ...]
+    reference: str
+    dem: str | None
+    camera: Path | None
+    flight_log: Path | None
+    camera_pose: Path | None
+
+    @classmethod
+    def open(
+        cls, folder: str | Path | None, reference: str | None = None, dem: str | None = None
+    ) -> FlightFolder:
+        """Find a flight's files; a given ``reference`` or ``dem`` overrides the folder's.
+
+        Raises
+        ------
+        InputError
+            If the folder, its frames or its map is missing.
+        """
+        if not folder:
+            raise InputError(
+                "flight.folder is not set; name your flight's folder with "
+                "--params=flight.folder=PATH"
+            )
+        path = Path(folder).expanduser()
+        if not path.is_dir():
+            raise InputError(f"flight folder {path} does not exist; it should hold {LAYOUT}")
+        if not (path / "frames").is_dir():
+            raise InputError(f"flight folder {path} has no frames/; it should hold {LAYOUT}")
+        frames = sorted(
+            p for p in (path / "frames").iterdir() if p.suffix.lower() in IMAGE_SUFFIXES
+        )
+        if not frames:
+            raise InputError(
+                f"{path / 'frames'} holds no image; put JPEG, PNG or TIFF frames there"
+            )
+        found_dem = dem or next((str(p) for p in sorted(path.glob("dem*.tif"))), None)
+
+        def optional(name: str) -> Path | None:
+            return path / name if (path / name).is_file() else None
+
+        return cls(
+            path=path,
+            frames=tuple(frames),
+            reference=reference or _find_reference(path),
+            dem=found_dem,
+            camera=optional("camera.json"),
+            flight_log=optional("flight_log.csv"),
+            camera_pose=optional("camera_pose.csv"),
+        )
+
+
+def _find_reference(folder: Path) -> str:
+    """``reference*.tif``, or else the sharpest georeferenced raster that is no DEM."""
+    named = sorted(folder.glob("reference*.tif"))
+    candidates = named or [p for p in sorted(folder.glob("*.tif")) if not p.name.startswith("dem")]
+    if not candidates:
+        raise InputError(
+            f"flight folder {folder} has no map; add reference.tif or name one with "
+            "--params=flight.reference=PATH"
+        )
+    return str(min(candidates, key=_pixel_area))
+
+
+def _pixel_area(path: Path) -> float:
+    """Area of a pixel in square units of the CRS; infinite for what is no map."""
+    try:
+        with rasterio.open(path) as raster:
+            return abs(raster.transform.determinant) if raster.crs else float("inf")
+    except RasterioIOError:
+        return float("inf")

@@ -1,0 +1,93 @@
+"""A frame's pixels and its metadata."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rasterio
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+from PIL.ExifTags import IFD
+from rasterio.errors import NotGeoreferencedWarning, RasterioError
+
+from pcnav_study.errors import InputError
+
+_EXIF = {
+    "model": 0x0110,
+    "focal_mm": 0x920A,
+    "focal_35mm": 0xA405,
+    "time": 0x9003,
+    "utc_offset": 0x9011,
+}
+_UNREADABLE = (OSError, UnidentifiedImageError, ValueError, SyntaxError, RasterioError)
+
+
+def read_grey(path: Path) -> NDArray[np.float32]:
+    """Mean of a frame's colour bands, (rows, columns); no-data pixels are NaN.
+
+    TIFF is read through GDAL, for its bands and no-data value; the rest through Pillow.
+
+    Raises
+    ------
+    InputError
+        If the file is no image, is truncated, or is larger than Pillow's safe size.
+    """
+    try:
+        if path.suffix.lower() in {".tif", ".tiff"}:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", NotGeoreferencedWarning)
+                with rasterio.open(path) as raster:
+                    bands = raster.read(masked=True)[:3].astype(np.float32)
+            return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)
+        with Image.open(path) as image:
+            image.load()
+            colours = np.asarray(image.convert("RGB"), np.float32)
+        return np.asarray(colours.mean(axis=2), np.float32)
+    except Image.DecompressionBombError as error:
+        raise InputError(f"{path.name} is too large to open safely; down-sample it") from error
+    except _UNREADABLE as error:
+        raise InputError(f"{path.name} cannot be read as an image ({error}); replace it") from error
+
+
+def read_metadata(path: Path) -> dict[str, Any]:
+    """EXIF and XMP values of a frame, under plain names; empty where it carries none.
+
+    Keys, each only if present: ``shape`` (rows, columns), ``model``, ``focal_mm``,
+    ``focal_35mm``, ``time``, ``utc_offset``, ``latitude``, ``longitude``, ``altitude``, and
+    ``xmp``, a flat dictionary of the XMP attributes.
+    """
+    if path.suffix.lower() in {".tif", ".tiff"}:
+        return {}
+    try:
+        with Image.open(path) as image:
+            exif = image.getexif()
+            details, gps = exif.get_ifd(IFD.Exif), exif.get_ifd(IFD.GPSInfo)
+            found: dict[str, Any] = {"shape": (image.height, image.width)}
+            found["xmp"] = _flat(image.getxmp())
+    except (*_UNREADABLE, Image.DecompressionBombError):
+        return {}
+    for name, tag in _EXIF.items():
+        value = details.get(tag, exif.get(tag))
+        if value is not None:
+            found[name] = float(value) if name.startswith("focal") else str(value).strip("\x00 ")
+    for name, value_tag, sign_tag in (("latitude", 2, 1), ("longitude", 4, 3)):
+        if value_tag in gps:
+            degrees, minutes, seconds = (float(v) for v in gps[value_tag])
+            sign = -1 if str(gps.get(sign_tag, "")).upper() in {"S", "W"} else 1
+            found[name] = sign * (degrees + minutes / 60 + seconds / 3600)
+    if 6 in gps:
+        below = gps.get(5, b"\x00") in (b"\x01", 1)
+        found["altitude"] = float(gps[6]) * (-1 if below else 1)
+    return found
+
+
+def _flat(tree: Any) -> dict[str, str]:
+    """Leaves of a nested XMP dictionary, by their own names."""
+    flat: dict[str, str] = {}
+    for name, value in tree.items() if isinstance(tree, dict) else []:
+        for item in value if isinstance(value, list) else [value]:
+            flat.update(_flat(item) if isinstance(item, dict) else {name: str(item)})
+    return flat

@@ -1,0 +1,77 @@
+"""Windows of maps and elevation models, on the grid they are wanted on.
+
+GDAL's warped virtual raster reads only what the window needs, through overviews where the
+map has them, from any CRS and any geotransform.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import rasterio
+from numpy.typing import NDArray
+from pyproj import CRS, Transformer
+from pyproj.aoi import AreaOfInterest
+from pyproj.database import query_utm_crs_info
+from rasterio.enums import Resampling
+from rasterio.errors import RasterioIOError
+from rasterio.vrt import WarpedVRT
+
+from pcnav_study.errors import InputError
+from pcnav_study.scene.grid import Grid
+
+
+def _open(path: str) -> rasterio.DatasetReader:
+    try:
+        raster = rasterio.open(path)
+    except RasterioIOError as error:
+        raise InputError(f"map {path} cannot be opened ({error}); check the path") from error
+    if raster.crs is None:
+        raster.close()
+        raise InputError(
+            f"map {path} has no CRS; assign one, as with: gdal_edit.py -a_srs EPSG:CODE {path}"
+        )
+    return raster
+
+
+def metric_crs(path: str) -> tuple[str, float]:
+    """A CRS in metres to work in, and the map's pixel size in it.
+
+    The map's own CRS where that is projected in metres, otherwise the UTM zone of its middle.
+
+    Raises
+    ------
+    InputError
+        If the map cannot be opened or has no CRS.
+    """
+    with _open(path) as raster:
+        own = CRS.from_wkt(raster.crs.to_wkt())
+        horizontal = own.sub_crs_list[0] if own.is_compound else own
+        middle = raster.transform @ (raster.width / 2, raster.height / 2)
+        if horizontal.is_projected and horizontal.axis_info[0].unit_conversion_factor == 1.0:
+            return horizontal.to_wkt(), float(np.sqrt(abs(raster.transform.determinant)))
+        lon, lat = Transformer.from_crs(horizontal, 4326, always_xy=True).transform(*middle)
+        zone = query_utm_crs_info("WGS 84", AreaOfInterest(lon, lat, lon, lat))[0]
+        utm = CRS.from_authority(zone.auth_name, zone.code)
+        to_utm = Transformer.from_crs(horizontal, utm, always_xy=True)
+        beside = raster.transform @ (raster.width / 2 + 1, raster.height / 2 + 1)
+        dx, dy = np.subtract(to_utm.transform(*beside), to_utm.transform(*middle))
+        return utm.to_wkt(), float(np.sqrt(abs(dx * dy)))
+
+
+def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
+    """Mean of a map's first (up to three) bands on ``grid``; NaN where it has no data."""
+    with _open(path) as raster:
+        source_pixel = np.sqrt(abs(raster.transform.determinant))
+        shrinking = raster.crs == CRS(grid.crs) and source_pixel < 0.9 * grid.pixel_size[0]
+        with WarpedVRT(
+            raster,
+            crs=grid.crs,
+            transform=grid.transform,
+            height=grid.shape[0],
+            width=grid.shape[1],
+            resampling=Resampling.average if shrinking else Resampling.bilinear,
+            add_alpha=raster.nodata is None,
+        ) as warped:
+            wanted = list(range(1, min(raster.count, 3) + 1))
+            bands = warped.read(wanted, masked=True).astype(np.float32)
+    return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)

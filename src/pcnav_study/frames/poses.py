@@ -1,0 +1,141 @@
+"""Where each frame was taken, from the sources a flight folder may hold.
+
+``camera_pose.csv`` (photogrammetric) goes before ``flight_log.csv``, and that before the
+frame's own XMP and EXIF; values that a source lacks are taken from the next.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pcnav_study.errors import InputError
+
+POSE_COLUMNS = {
+    "easting_m": "easting",
+    "northing_m": "northing",
+    "altitude_m": "altitude",
+    "omega_deg": "omega",
+    "phi_deg": "phi",
+    "kappa_deg": "kappa",
+}
+LOG_COLUMNS = {
+    "latitude_deg": "latitude",
+    "longitude_deg": "longitude",
+    "gps_altitude_m": "altitude",
+    "height_above_ground_m": "height_above_ground",
+    "flight_yaw_deg": "yaw",
+}
+
+
+@dataclass(frozen=True)
+class PoseRecord:
+    """What is known of a frame's pose: values by name, and each value's origin.
+
+    Names: ``easting``, ``northing`` (map CRS) or ``latitude``, ``longitude``; ``altitude``
+    (above the vertical datum) and ``height_above_ground`` in metres; ``omega``, ``phi``,
+    ``kappa`` or ``yaw``, ``pitch``, ``roll`` of the camera in degrees.
+    """
+
+    frame: str
+    values: dict[str, float] = field(default_factory=dict)
+    sources: dict[str, str] = field(default_factory=dict)
+
+    def offer(self, source: str, values: dict[str, float]) -> None:
+        """Add the values not known from a better source."""
+        for name, value in values.items():
+            if name not in self.values and np.isfinite(value):
+                self.values[name] = value
+                self.sources[name] = source
+
+    @property
+    def has_position(self) -> bool:
+        """True if the horizontal position is known."""
+        return {"easting", "northing"} <= self.values.keys() or {
+            "latitude",
+            "longitude",
+        } <= self.values.keys()
+
+    @property
+    def source(self) -> str:
+        """The sources used, best first, as text."""
+        return "+".join(dict.fromkeys(self.sources.values()))
+
+
+def pose_records(
+    frames: tuple[Path, ...],
+    metadata: dict[str, dict[str, Any]],
+    camera_pose: Path | None = None,
+    flight_log: Path | None = None,
+) -> dict[str, PoseRecord]:
+    """Pose of every frame, keyed by file name, in the frames' order.
+
+    Raises
+    ------
+    InputError
+        If a CSV lacks a column or holds text where a number belongs.
+    """
+    poses = {} if camera_pose is None else _read(camera_pose, tuple(POSE_COLUMNS))
+    log = {} if flight_log is None else _read(flight_log, ("latitude_deg", "longitude_deg"))
+    records = {}
+    for path in frames:
+        record = PoseRecord(path.name)
+        row = poses.get(path.name, poses.get(path.stem))
+        if row:
+            record.offer("camera_pose.csv", {n: row[k] for k, n in POSE_COLUMNS.items()})
+        row = log.get(path.name, log.get(path.stem))
+        if row:
+            record.offer("flight_log.csv", {v: row[k] for k, v in LOG_COLUMNS.items() if k in row})
+        seen = metadata.get(path.name, {})
+        record.offer("XMP", _from_xmp(seen.get("xmp", {})))
+        names = ("latitude", "longitude", "altitude")
+        record.offer("EXIF", {name: seen[name] for name in names if name in seen})
+        records[path.name] = record
+    return records
+
+
+def _read(path: Path, required: tuple[str, ...]) -> dict[str, dict[str, float]]:
+    """Numeric columns of a CSV by frame."""
+    try:
+        table = pd.read_csv(path, dtype={"frame": str})
+    except (ValueError, UnicodeDecodeError) as error:
+        raise InputError(f"{path} cannot be read as CSV ({error}); correct it") from error
+    missing = [name for name in ("frame", *required) if name not in table]
+    if missing:
+        raise InputError(f"{path} lacks the column {', '.join(missing)}; add it")
+    for name in required:
+        numbers = pd.to_numeric(table[name], errors="coerce")
+        bad = table["frame"][numbers.isna() & table[name].notna()]
+        if len(bad):
+            raise InputError(f"{path} column {name}, frame {bad.iloc[0]}: not a number; correct it")
+        table[name] = numbers
+    numeric = table.set_index("frame").select_dtypes("number")
+    return {str(k): row for k, row in numeric.to_dict("index").items()}
+
+
+def _from_xmp(xmp: dict[str, str]) -> dict[str, float]:
+    """Drone values of XMP (DJI's names).
+
+    A gimbal whose three angles are all zero was not recorded: it would look at the
+    horizon. The camera is then taken to look straight down, turned as the aircraft.
+    """
+
+    def number(name: str) -> float:
+        try:
+            return float(xmp.get(name, "nan"))
+        except ValueError:
+            return float("nan")
+
+    values = {
+        "height_above_ground": number("RelativeAltitude"),
+        "altitude": number("AbsoluteAltitude"),
+        "yaw": number("FlightYawDegree"),
+    }
+    gimbal = [number(f"Gimbal{axis}Degree") for axis in ("Yaw", "Pitch", "Roll")]
+    if np.isfinite(gimbal).all() and np.any(gimbal):
+        values |= {"yaw": gimbal[0], "pitch": gimbal[1] + 90.0, "roll": gimbal[2]}
+    return values

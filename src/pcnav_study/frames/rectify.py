@@ -1,0 +1,105 @@
+"""From the frame's geometry to the map's.
+
+Each ground point of the map grid, with its height, is projected into the frame and looked
+up there. On level ground that is the plane homography of Hartley and Zisserman [1]_; with
+an elevation model it is an orthophoto.
+
+References
+----------
+.. [1] Hartley and Zisserman (2004), Multiple View Geometry, section 8.1.1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from pcnav_study.errors import InputError
+from pcnav_study.scene.camera import Camera, Pose
+from pcnav_study.scene.grid import Grid
+
+
+def rectify(
+    frame: NDArray[np.floating],
+    camera: Camera,
+    pose: Pose,
+    grid: Grid,
+    ground: NDArray[np.floating] | float,
+) -> NDArray[np.float32]:
+    """The frame as the map would show it.
+
+    Parameters
+    ----------
+    frame : (rows, columns)
+        NaN is no data.
+    grid : Grid
+        In a metric CRS, that of ``pose``.
+    ground : float or array of ``grid.shape``
+        Height of the ground in metres, level or from an elevation model.
+
+    Returns
+    -------
+    array of ``grid.shape``, float32
+        NaN outside the picture.
+
+    Raises
+    ------
+    InputError
+        If the frame is not of the camera's size.
+    """
+    if frame.shape != camera.shape:
+        raise InputError(
+            f"a frame of {frame.shape} px does not fit the camera's {camera.shape}; "
+            "give each camera a flight folder of its own"
+        )
+    x, y = grid.mesh()
+    height = np.broadcast_to(np.asarray(ground, np.float64), grid.shape)
+    rows, cols = camera.project(np.stack([x, y, height], axis=-1), pose)
+    shrink = _shrink_factor(rows, cols)
+    small = _block_mean(np.asarray(frame, np.float64), shrink)
+    at = (np.stack([rows, cols]) - (shrink - 1) / 2) / shrink
+    looked_up = ndimage.map_coordinates(small, np.nan_to_num(at, nan=-9.0), order=1, cval=np.nan)
+    return np.asarray(looked_up, np.float32)
+
+
+def inscribed_grid(
+    corners: NDArray[np.float64], pixel: float, crs: str, *, largest: int = 512
+) -> Grid:
+    """The largest north-up square in a footprint, of even side, as a grid.
+
+    Parameters
+    ----------
+    corners : (4, 2)
+        East and north of a convex footprint.
+    pixel : float
+        Side of a pixel in metres.
+    largest : int
+        No more pixels a side than this.
+    """
+    middle = corners.mean(axis=0)
+    edges = np.roll(corners, -1, axis=0) - corners
+    normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
+    distance = np.abs(((corners - middle) * normals).sum(axis=1))
+    half = float((distance / np.abs(normals).sum(axis=1)).min())
+    side = min(2 * int(half / pixel), largest)
+    return Grid.centred(middle[0], middle[1], (pixel, pixel), (side, side), crs)
+
+
+def _shrink_factor(rows: NDArray[np.float64], cols: NDArray[np.float64]) -> int:
+    """Whole frame pixels that one map pixel covers, at least one."""
+    area = np.abs(
+        np.gradient(rows, axis=0) * np.gradient(cols, axis=1)
+        - np.gradient(rows, axis=1) * np.gradient(cols, axis=0)
+    )
+    side = np.sqrt(np.nanmedian(area)) if np.isfinite(area).any() else 1.0
+    return max(1, int(side))
+
+
+def _block_mean(image: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Means of size x size blocks; the rest at the right and bottom is left out."""
+    if size == 1:
+        return image
+    rows, cols = (n // size for n in image.shape)
+    blocks = image[: rows * size, : cols * size].reshape(rows, size, cols, size)
+    return np.asarray(blocks.mean(axis=(1, 3)))
