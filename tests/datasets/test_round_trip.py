@@ -77,9 +77,10 @@ def test_multiband_raster_is_not_moved(tmp_path, rng):
 
 
 def test_dataset_with_times_and_text(tmp_path):
+    times = np.array(["2016-06-21T14:30", "2016-12-21"], "M8[ns]")
     data = xr.Dataset(
         {"frames": (("frame", "row", "col"), np.arange(24, dtype="uint8").reshape(2, 3, 4))},
-        coords={"frame": ["a", "b"], "time": ("frame", np.array(["2016-06-21T14:30", "2016-12-21"], "M8[ns]"))},
+        coords={"frame": ["a", "b"], "time": ("frame", times)},
         attrs={"crs": "EPSG:32617", "focal_px": 166.25},
     )  # fmt: skip
     xr.testing.assert_identical(saved("image.nc", tmp_path, data), data)

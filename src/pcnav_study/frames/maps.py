@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import rasterio
+import xarray as xr
 from numpy.typing import NDArray
 from pyproj import CRS, Transformer
 from pyproj.aoi import AreaOfInterest
@@ -15,6 +16,8 @@ from pyproj.database import query_utm_crs_info
 from rasterio.enums import Resampling
 from rasterio.errors import RasterioIOError
 from rasterio.vrt import WarpedVRT
+from rasterio.warp import calculate_default_transform
+from scipy.ndimage import distance_transform_edt
 
 from pcnav_study.errors import InputError
 from pcnav_study.scene.grid import Grid
@@ -75,3 +78,27 @@ def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
             wanted = list(range(1, min(raster.count, 3) + 1))
             bands = warped.read(wanted, masked=True).astype(np.float32)
     return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)
+
+
+def read_elevation(path: str) -> xr.DataArray:
+    """A whole elevation model in metres, in a metric CRS; gaps at the nearest height.
+
+    Raises
+    ------
+    InputError
+        If it cannot be opened, has no CRS, or holds no height.
+    """
+    crs, _ = metric_crs(path)
+    with _open(path) as raster:
+        transform, cols, rows = calculate_default_transform(
+            raster.crs, crs, raster.width, raster.height, *raster.bounds
+        )
+    grid = Grid(transform, (int(rows or 0), int(cols or 0)), crs)
+    heights = read_window(path, grid)
+    missing = np.isnan(heights)
+    if missing.all():
+        raise InputError(f"elevation model {path} holds no height; check its no-data value")
+    if missing.any():
+        nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
+        heights = heights[tuple(nearest)]
+    return grid.image(heights, "elevation")

@@ -2,6 +2,7 @@
 
 from pcnav_study.scene.albedo import fractal_albedo
 from pcnav_study.scene.camera import Camera, Pose
+from pcnav_study.scene.flight import fly, waypoints
 from pcnav_study.scene.grid import Grid
 from pcnav_study.scene.relief import fractal_relief, jacksboro, slope_aspect
 from pcnav_study.scene.render import render
@@ -15,6 +16,7 @@ __all__ = [
     "SunPosition",
     "azimuth_difference",
     "cast_shadows",
+    "fly",
     "fractal_albedo",
     "fractal_relief",
     "jacksboro",
@@ -22,4 +24,5 @@ __all__ = [
     "shade",
     "slope_aspect",
     "sun_position",
+    "waypoints",
 ]

@@ -1,0 +1,1 @@
+"""Thin Kedro pipelines: load, call the floors below, hand on."""
