@@ -53,26 +53,39 @@ success_by_sun(summary, tolerance)
 # %%
 lines = []
 for name, rows in summary.groupby("method"):
-    lost = rows.loc[rows["success_high"] < 0.95, "sun_difference_deg"]
+    short = rows.loc[rows["success_high"] < 0.95, "sun_difference_deg"]
     share = (rows["success"] * rows["n"]).sum() / rows["n"].sum()
-    where = f"lost from {lost.min():.0f}° on" if len(lost) else "not shown to be lost anywhere"
+    where = ", ".join(f"{angle:.0f}°" for angle in short) or "no sun difference flown"
     lines.append(
-        f"- **{name}** places {share:.0%} of all frames; {where} (95 % interval below 0.95)."
+        f"- **{name}** places {share:.0%} of all frames. Below 0.95 (95 % interval) at: {where}."
     )
 Markdown("\n".join(lines))
 
 # %% [markdown]
 # ## The table
+#
+# *low* and *high* bound the success with 95 % confidence (Wilson). The RMSE counts correct matches
+# alone (a dash: there are none), the median all of them.
 
 # %%
-summary.drop(columns="tolerance_px").style.format(
-    {
-        "sun_difference_deg": "{:.0f}", "success": "{:.2f}", "success_low": "{:.2f}",
-        "success_high": "{:.2f}", "rmse_px": "{:.3f}", "median_error_px": "{:.3f}",
-        "median_quality": "{:.2f}", "alarm_rate": "{:.2f}",
-    },
-    na_rep="none correct",
-).hide(axis="index").set_uuid("summary")  # fmt: skip
+headings = {
+    "sun_difference_deg": "sun, deg", "success_low": "low", "success_high": "high", "rmse_px": "RMSE, px",
+    "median_error_px": "median, px", "median_quality": "quality", "alarm_rate": "alarms",
+}  # fmt: skip
+digits = {
+    "sun, deg": 0,
+    "success": 2,
+    "low": 2,
+    "high": 2,
+    "RMSE, px": 3,
+    "median, px": 3,
+    "quality": 2,
+    "alarms": 2,
+}
+table = summary.drop(columns="tolerance_px").rename(columns=headings)
+table.style.format({name: f"{{:.{n}f}}" for name, n in digits.items()}, na_rep="-").hide(
+    axis="index"
+).set_uuid("summary")
 
 # %% [markdown]
 # ## Every match

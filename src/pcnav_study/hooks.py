@@ -77,7 +77,7 @@ class RunManifest:
     @hook_impl
     def after_catalog_created(self, parameters: dict[str, Any]) -> None:
         """Remember the parameters and start anew."""
-        self._parameters, self._read, self._written = parameters, {}, {}
+        self._parameters, self._read, self._written = parameters["parameters"], {}, {}
 
     @hook_impl
     def after_dataset_loaded(self, dataset_name: str) -> None:
@@ -119,14 +119,15 @@ class RunManifest:
         inputs = {n: _fingerprint(catalog, n) for n in self._read if n not in self._written}
         outputs = {n: _fingerprint(catalog, n) for n in self._written}
         plain = json.loads(json.dumps(self._parameters, sort_keys=True, default=_plain))
+        run: Run = catalog["run"].load()
         catalog.save(
             "run_manifest",
             {
-                "run_id": catalog["run"].load().save_version,
+                "run_id": run.save_version,
                 "status": "failed" if error else "finished",
                 "error": error,
                 "git": _git_state(Path(run_params["project_path"])),
-                "env": run_params.get("env"),
+                "env": run.env,
                 "pipelines": run_params.get("pipeline_names"),
                 "nodes": [node.name for node in pipeline.nodes],
                 "parameters": plain,

@@ -108,6 +108,6 @@ def match_pictures(
         )  # fmt: skip
         label = "column, px" if k < 3 else "column shift, px"
         figure.update_xaxes(constrain="domain", title=label, row=1, col=k)
-    figure.update_layout(legend={"orientation": "h", "y": -0.25, "x": 0.7, "bgcolor": "#8899aa"})
+    figure.update_layout(legend={"orientation": "h", "y": 1.32, "x": 0.62, "bgcolor": "#8899aa"})
     difference = float(pair["sun_difference"])
     return styled(figure, f"{frame}: sun {difference:.0f}° from the map's", 330)

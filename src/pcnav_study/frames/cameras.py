@@ -39,7 +39,8 @@ def camera_from_file(path: Path) -> Camera:
         spec = json.loads(path.read_text())
         width, height = spec["image_size_px"]
         focal_px = spec["focal_length_mm"] / spec["sensor_size_mm"][0] * width
-        x0, y0 = spec.get("principal_point", (0.0, 0.0))
+        x0, y0 = map(float, spec.get("principal_point", (0.0, 0.0)))
+        camera = Camera((int(height), int(width)), float(focal_px), (y0, x0))
     except json.JSONDecodeError as error:
         raise InputError(f"{path} is not valid JSON ({error}); correct it") from error
     except KeyError as error:
@@ -48,7 +49,7 @@ def camera_from_file(path: Path) -> Camera:
         raise InputError(f"{path} holds a malformed value ({error}); correct it") from error
     if spec.get("type", "pinhole") != "pinhole":
         raise InputError(f"{path} asks for a {spec['type']} camera; only pinhole is supported")
-    return Camera((int(height), int(width)), float(focal_px), (float(y0), float(x0)))
+    return camera
 
 
 def camera_from_metadata(metadata: dict[str, Any]) -> Camera:

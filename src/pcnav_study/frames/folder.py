@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import rasterio
-from rasterio.errors import RasterioIOError
-
 from pcnav_study.errors import InputError
+from pcnav_study.frames.maps import metric_crs
 
 IMAGE_SUFFIXES = {".jpg", ".jpeg", ".png", ".tif", ".tiff"}
 LAYOUT = "frames/ with images, and a map such as reference.tif"
@@ -79,13 +77,12 @@ def _find_reference(folder: Path) -> str:
             f"flight folder {folder} has no map; add reference.tif or name one with "
             "--params=flight.reference=PATH"
         )
-    return str(min(candidates, key=_pixel_area))
+    return str(min(candidates, key=_pixel_side))
 
 
-def _pixel_area(path: Path) -> float:
-    """Area of a pixel in square units of the CRS; infinite for what is no map."""
+def _pixel_side(path: Path) -> float:
+    """Side of a pixel in metres; infinite for what is no map."""
     try:
-        with rasterio.open(path) as raster:
-            return abs(raster.transform.determinant) if raster.crs else float("inf")
-    except RasterioIOError:
+        return metric_crs(str(path))[1]
+    except InputError:
         return float("inf")

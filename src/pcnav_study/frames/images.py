@@ -11,6 +11,7 @@ import rasterio
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 from PIL.ExifTags import IFD
+from rasterio.enums import ColorInterp
 from rasterio.errors import NotGeoreferencedWarning, RasterioError
 
 from pcnav_study.errors import InputError
@@ -40,10 +41,13 @@ def read_grey(path: Path) -> NDArray[np.float32]:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", NotGeoreferencedWarning)
                 with rasterio.open(path) as raster:
-                    bands = raster.read(masked=True)[:3].astype(np.float32)
+                    _refuse_bomb(raster.width * raster.height)
+                    bands = raster.read(colour_bands(raster), masked=True).astype(np.float32)
             return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)
         with Image.open(path) as image:
             image.load()
+            if image.mode == "F" or image.mode.startswith("I"):  # RGB would clip it at 255
+                return np.asarray(image, np.float32)
             colours = np.asarray(image.convert("RGB"), np.float32)
         return np.asarray(colours.mean(axis=2), np.float32)
     except Image.DecompressionBombError as error:
@@ -66,22 +70,47 @@ def read_metadata(path: Path) -> dict[str, Any]:
             exif = image.getexif()
             details, gps = exif.get_ifd(IFD.Exif), exif.get_ifd(IFD.GPSInfo)
             found: dict[str, Any] = {"shape": (image.height, image.width)}
-            found["xmp"] = _flat(image.getxmp())
+            try:
+                found["xmp"] = _flat(image.getxmp())
+            except _UNREADABLE:  # malformed or hostile XML costs the XMP alone
+                found["xmp"] = {}
     except (*_UNREADABLE, Image.DecompressionBombError):
         return {}
     for name, tag in _EXIF.items():
         value = details.get(tag, exif.get(tag))
         if value is not None:
-            found[name] = float(value) if name.startswith("focal") else str(value).strip("\x00 ")
+            text = not name.startswith("focal")
+            found[name] = str(value).strip("\x00 ") if text else _number(value)
     for name, value_tag, sign_tag in (("latitude", 2, 1), ("longitude", 4, 3)):
-        if value_tag in gps:
-            degrees, minutes, seconds = (float(v) for v in gps[value_tag])
+        angle = gps.get(value_tag, ())
+        if isinstance(angle, tuple) and len(angle) == 3:
+            degrees, minutes, seconds = (_number(v) for v in angle)
             sign = -1 if str(gps.get(sign_tag, "")).upper() in {"S", "W"} else 1
             found[name] = sign * (degrees + minutes / 60 + seconds / 3600)
     if 6 in gps:
         below = gps.get(5, b"\x00") in (b"\x01", 1)
-        found["altitude"] = float(gps[6]) * (-1 if below else 1)
+        found["altitude"] = _number(gps[6]) * (-1 if below else 1)
     return found
+
+
+def colour_bands(raster: rasterio.DatasetReader) -> list[int]:
+    """Indices of a raster's first (up to three) bands that are no alpha band."""
+    kinds = zip(raster.indexes, raster.colorinterp, strict=True)
+    return [index for index, kind in kinds if kind != ColorInterp.alpha][:3]
+
+
+def _refuse_bomb(pixels: int) -> None:
+    """Pillow's own rule, for images that Pillow does not open."""
+    if Image.MAX_IMAGE_PIXELS is not None and pixels > 2 * Image.MAX_IMAGE_PIXELS:
+        raise Image.DecompressionBombError(f"{pixels} px")
+
+
+def _number(value: Any) -> float:
+    """A number out of EXIF; NaN for what is none."""
+    try:
+        return float(value)
+    except (TypeError, ValueError, ZeroDivisionError):
+        return float("nan")
 
 
 def _flat(tree: Any) -> dict[str, str]:

@@ -6,6 +6,8 @@ map has them, from any CRS and any geotransform.
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import rasterio
 import xarray as xr
@@ -13,19 +15,22 @@ from numpy.typing import NDArray
 from pyproj import CRS, Transformer
 from pyproj.aoi import AreaOfInterest
 from pyproj.database import query_utm_crs_info
-from rasterio.enums import Resampling
-from rasterio.errors import RasterioIOError
+from rasterio.enums import ColorInterp, Resampling
+from rasterio.errors import NotGeoreferencedWarning, RasterioIOError
 from rasterio.vrt import WarpedVRT
 from rasterio.warp import calculate_default_transform
 from scipy.ndimage import distance_transform_edt
 
 from pcnav_study.errors import InputError
+from pcnav_study.frames.images import colour_bands
 from pcnav_study.scene.grid import Grid
 
 
 def _open(path: str) -> rasterio.DatasetReader:
     try:
-        raster = rasterio.open(path)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", NotGeoreferencedWarning)
+            raster = rasterio.open(path)
     except RasterioIOError as error:
         raise InputError(f"map {path} cannot be opened ({error}); check the path") from error
     if raster.crs is None:
@@ -56,9 +61,14 @@ def metric_crs(path: str) -> tuple[str, float]:
         zone = query_utm_crs_info("WGS 84", AreaOfInterest(lon, lat, lon, lat))[0]
         utm = CRS.from_authority(zone.auth_name, zone.code)
         to_utm = Transformer.from_crs(horizontal, utm, always_xy=True)
-        beside = raster.transform @ (raster.width / 2 + 1, raster.height / 2 + 1)
-        dx, dy = np.subtract(to_utm.transform(*beside), to_utm.transform(*middle))
-        return utm.to_wkt(), float(np.sqrt(abs(dx * dy)))
+        sides = [
+            np.subtract(
+                to_utm.transform(*(raster.transform @ (raster.width / 2 + i, raster.height / 2 + j))),
+                to_utm.transform(*middle),
+            )
+            for i, j in ((1, 0), (0, 1))
+        ]
+        return utm.to_wkt(), float(np.sqrt(abs(np.linalg.det(sides))))
 
 
 def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
@@ -73,11 +83,12 @@ def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
             height=grid.shape[0],
             width=grid.shape[1],
             resampling=Resampling.average if shrinking else Resampling.bilinear,
-            add_alpha=raster.nodata is None,
+            dtype="float32",
+            src_nodata=np.nan if raster.nodata is None else raster.nodata,
+            nodata=np.nan,
         ) as warped:
-            wanted = list(range(1, min(raster.count, 3) + 1))
-            bands = warped.read(wanted, masked=True).astype(np.float32)
-    return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)
+            bands = warped.read(list(range(1, min(raster.count, 3) + 1)))
+    return np.asarray(bands.mean(axis=0), np.float32)
 
 
 def read_elevation(path: str) -> xr.DataArray:

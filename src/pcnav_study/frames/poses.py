@@ -107,7 +107,10 @@ def _read(path: Path, required: tuple[str, ...]) -> dict[str, dict[str, float]]:
     missing = [name for name in ("frame", *required) if name not in table]
     if missing:
         raise InputError(f"{path} lacks the column {', '.join(missing)}; add it")
-    for name in required:
+    twice = table["frame"][table["frame"].duplicated()]
+    if len(twice):
+        raise InputError(f"{path} lists frame {twice.iloc[0]} twice; keep one row for each frame")
+    for name in table.columns.intersection([*POSE_COLUMNS, *LOG_COLUMNS]):
         numbers = pd.to_numeric(table[name], errors="coerce")
         bad = table["frame"][numbers.isna() & table[name].notna()]
         if len(bad):

@@ -110,7 +110,7 @@ class Site:
                 "flight_log.csv, or keep the image's EXIF"
             )
         known = record.values
-        if "easting" in known:
+        if {"easting", "northing"} <= known.keys():
             return known["easting"], known["northing"]
         to_map = Transformer.from_crs(4326, self.crs, always_xy=True)
         east, north = to_map.transform(known["longitude"], known["latitude"])
@@ -150,7 +150,7 @@ class Site:
                 "correct its altitude"
             )
         position = (east, north, height)
-        if "omega" in known:
+        if {"omega", "phi", "kappa"} <= known.keys():
             angles = (known["omega"], known["phi"], known["kappa"])
             return Pose.from_omega_phi_kappa(position, *angles), level
         if "yaw" not in known:
@@ -198,7 +198,7 @@ def localise_frame(
     heights = site.ground(grid)
     patch = rectify(read_grey(path), camera, pose, grid, level if heights is None else heights)
     result = match(window, patch, settings.method, max_shift=margin)
-    candidates = window.size
+    candidates = result.surface.values.size
     alarm = is_alarm(result.quality, candidates, false_match_rate=settings.false_match_rate)
     position = located(believed, result.shift, grid.pixel_size)
     return Fix(position, grid, patch, window, result, alarm)

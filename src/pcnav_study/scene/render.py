@@ -28,14 +28,16 @@ def render(
     Returns
     -------
     (rows, columns) float32
-        NaN where the ray leaves the map.
+        NaN where the ray leaves the map or looks at the sky.
     """
     grid = Grid.of(elevation)
     heights = elevation.values.astype(np.float64)
     rows, cols = np.indices(camera.shape, dtype=np.float64)
     rays = camera.rays(rows, cols, pose)
-    rays = rays / -rays[..., 2:]
-    planes = np.linspace(heights.max() + 1.0, heights.min() - 1.0, steps)
+    down = np.where(rays[..., 2:] < 0, -rays[..., 2:], np.nan)
+    rays = rays / down
+    top = min(heights.max() + 1.0, pose.height)
+    planes = np.linspace(top, heights.min() - 1.0, steps)
     hit = np.full(camera.shape, np.nan)
     above = np.full(camera.shape, np.nan)
     for k, plane in enumerate(planes):

@@ -85,11 +85,13 @@ def cast_shadows(
     step = min(dy, dx)
     climb = step / np.tan(np.radians(max(sun.zenith, 1e-6)))
     azimuth = np.radians(sun.azimuth)
-    per_step = np.array([-np.cos(azimuth) * step / dy, np.sin(azimuth) * step / dx])
+    # Rounded: the cosine of 90 degrees is not quite 0 and would march off the grid's rim.
+    per_step = np.round([-np.cos(azimuth) * step / dy, np.sin(azimuth) * step / dx], 12)
     rows, cols = np.indices(heights.shape, dtype=np.float64)
     hidden = np.zeros(heights.shape, bool)
     relief = float(np.nanmax(heights) - np.nanmin(heights))
-    for k in range(1, min(int(relief / climb) + 1, 2 * max(heights.shape)) + 1):
+    across = int(np.hypot(heights.shape[0] * dy, heights.shape[1] * dx) / step)
+    for k in range(1, min(int(relief / climb), across) + 2):
         at = [rows + k * per_step[0], cols + k * per_step[1]]
         obstacle = ndimage.map_coordinates(heights, at, order=1, cval=-np.inf)
         hidden |= obstacle > heights + k * climb

@@ -40,13 +40,18 @@ def sun_position(time: str | pd.Timestamp, latitude: float, longitude: float) ->
     Raises
     ------
     InputError
-        If the time has no time zone: local noon and UTC noon are other suns.
+        If the time cannot be read or has no time zone: local noon and UTC noon are other suns.
 
     References
     ----------
     .. [1] Reda and Andreas (2004), Solar Energy 76(5), 577-589.
     """
-    stamp = pd.Timestamp(time)
+    try:
+        stamp = pd.Timestamp(time)
+    except ValueError as error:
+        raise InputError(
+            f"time {time!r} is no time; write it as in '2016-06-21 09:30-05:00'"
+        ) from error
     if stamp.tzinfo is None:
         raise InputError(f"time {time!r} has no time zone; add one, as in '{stamp}+00:00'")
     row = pvlib.solarposition.get_solarposition(

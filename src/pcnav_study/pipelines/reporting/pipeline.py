@@ -9,7 +9,7 @@ from pcnav_study.pipelines.reporting.nodes import build_site, render_page, run_n
 
 # Shelf, notebook, and the datasets it reads.
 NOTEBOOKS = (
-    ("walkthroughs", "image_formation", ("elevation", "suns", "reference_map")),
+    ("walkthroughs", "image_formation", ("elevation", "suns")),
     (
         "reports",
         "matches",
