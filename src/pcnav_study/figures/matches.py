@@ -59,7 +59,7 @@ def error_by_sun(tables: Mapping[str, pd.DataFrame], tolerance_px: float) -> go.
         )
     figure.add_hline(y=tolerance_px, line={"dash": "dot", "color": "#555"})
     figure.update_xaxes(title="difference of sun azimuth, map to frame, deg")
-    figure.update_yaxes(title="error, px (log)", type="log")
+    figure.update_yaxes(title="error, px (log)", type="log", dtick=1)
     n = sum(len(table) for table in tables.values())
     return styled(figure, f"Error of every match (n = {n}; crosses raised the alarm)")
 
@@ -108,6 +108,6 @@ def match_pictures(
         )  # fmt: skip
         label = "column, px" if k < 3 else "column shift, px"
         figure.update_xaxes(constrain="domain", title=label, row=1, col=k)
-    figure.update_layout(legend={"orientation": "h", "y": 1.32, "x": 0.62, "bgcolor": "#8899aa"})
+    figure.update_layout(legend={"orientation": "h", "y": 1.36, "x": 0.43, "bgcolor": "#8899aa"})
     difference = float(pair["sun_difference"])
     return styled(figure, f"{frame}: sun {difference:.0f}° from the map's", 330)

@@ -57,7 +57,7 @@ def match_pairs(
                 "error_px": float(np.hypot(*error)),
                 "error_m": float(np.hypot(error[0] * dy, error[1] * dx)),
                 "quality": found.quality,
-                "candidates": pair["reference"].size,
+                "candidates": found.surface.values.size,
             }
         )
     first = max(surfaces, key=lambda surface: surface.values.size)
