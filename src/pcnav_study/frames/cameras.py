@@ -45,7 +45,7 @@ def camera_from_file(path: Path) -> Camera:
         raise InputError(f"{path} is not valid JSON ({error}); correct it") from error
     except KeyError as error:
         raise InputError(f"{path} lacks the key {error}; add it") from error
-    except (TypeError, ValueError, ZeroDivisionError) as error:
+    except (TypeError, ValueError, IndexError, ZeroDivisionError) as error:
         raise InputError(f"{path} holds a malformed value ({error}); correct it") from error
     if spec.get("type", "pinhole") != "pinhole":
         raise InputError(f"{path} asks for a {spec['type']} camera; only pinhole is supported")

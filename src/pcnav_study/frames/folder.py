@@ -52,7 +52,7 @@ class FlightFolder:
             raise InputError(
                 f"{path / 'frames'} holds no image; put JPEG, PNG or TIFF frames there"
             )
-        found_dem = dem or next((str(p) for p in sorted(path.glob("dem*.tif"))), None)
+        found_dem = dem or next((str(p) for p in _rasters(path, "dem")), None)
 
         def optional(name: str) -> Path | None:
             return path / name if (path / name).is_file() else None
@@ -70,14 +70,23 @@ class FlightFolder:
 
 def _find_reference(folder: Path) -> str:
     """``reference*.tif``, or else the sharpest georeferenced raster that is no DEM."""
-    named = sorted(folder.glob("reference*.tif"))
-    candidates = named or [p for p in sorted(folder.glob("*.tif")) if not p.name.startswith("dem")]
+    named = _rasters(folder, "reference")
+    candidates = named or [p for p in _rasters(folder) if p not in _rasters(folder, "dem")]
     if not candidates:
         raise InputError(
             f"flight folder {folder} has no map; add reference.tif or name one with "
             "--params=flight.reference=PATH"
         )
     return str(min(candidates, key=_pixel_side))
+
+
+def _rasters(folder: Path, prefix: str = "") -> list[Path]:
+    """GeoTIFF files by name, in any case of letters."""
+    return sorted(
+        p
+        for p in folder.iterdir()
+        if p.suffix.lower() in {".tif", ".tiff"} and p.name.lower().startswith(prefix)
+    )
 
 
 def _pixel_side(path: Path) -> float:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pyproj import CRS, Transformer
 from pyproj.aoi import AreaOfInterest
 from pyproj.database import query_utm_crs_info
+from pyproj.exceptions import ProjError
 from rasterio.enums import ColorInterp, Resampling
 from rasterio.errors import NotGeoreferencedWarning, RasterioIOError
 from rasterio.vrt import WarpedVRT
@@ -57,16 +58,19 @@ def metric_crs(path: str) -> tuple[str, float]:
         middle = raster.transform @ (raster.width / 2, raster.height / 2)
         if horizontal.is_projected and horizontal.axis_info[0].unit_conversion_factor == 1.0:
             return horizontal.to_wkt(), float(np.sqrt(abs(raster.transform.determinant)))
-        lon, lat = Transformer.from_crs(horizontal, 4326, always_xy=True).transform(*middle)
-        zone = query_utm_crs_info("WGS 84", AreaOfInterest(lon, lat, lon, lat))[0]
+        try:
+            lon, lat = Transformer.from_crs(horizontal, 4326, always_xy=True).transform(*middle)
+            zone = query_utm_crs_info("WGS 84", AreaOfInterest(lon, lat, lon, lat))[0]
+        except (ProjError, IndexError) as error:
+            raise InputError(
+                f"map {path} lies in no UTM zone; reproject it to a CRS in metres, with gdalwarp"
+            ) from error
         utm = CRS.from_authority(zone.auth_name, zone.code)
         to_utm = Transformer.from_crs(horizontal, utm, always_xy=True)
+        corners = [(raster.width / 2 + i, raster.height / 2 + j) for i, j in ((1, 0), (0, 1))]
         sides = [
-            np.subtract(
-                to_utm.transform(*(raster.transform @ (raster.width / 2 + i, raster.height / 2 + j))),
-                to_utm.transform(*middle),
-            )
-            for i, j in ((1, 0), (0, 1))
+            np.subtract(to_utm.transform(*(raster.transform @ corner)), to_utm.transform(*middle))
+            for corner in corners
         ]
         return utm.to_wkt(), float(np.sqrt(abs(np.linalg.det(sides))))
 
@@ -74,6 +78,11 @@ def metric_crs(path: str) -> tuple[str, float]:
 def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
     """Mean of a map's first (up to three) bands on ``grid``; NaN where it has no data."""
     with _open(path) as raster:
+        missing = {"dtype": "float32", "nodata": np.nan}
+        if ColorInterp.alpha in raster.colorinterp:
+            missing = {}  # transparency says it
+        elif raster.nodata is None:
+            missing |= {"src_nodata": np.nan}
         source_pixel = np.sqrt(abs(raster.transform.determinant))
         shrinking = raster.crs == CRS(grid.crs) and source_pixel < 0.9 * grid.pixel_size[0]
         with WarpedVRT(
@@ -83,12 +92,10 @@ def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
             height=grid.shape[0],
             width=grid.shape[1],
             resampling=Resampling.average if shrinking else Resampling.bilinear,
-            dtype="float32",
-            src_nodata=np.nan if raster.nodata is None else raster.nodata,
-            nodata=np.nan,
+            **missing,
         ) as warped:
-            bands = warped.read(list(range(1, min(raster.count, 3) + 1)))
-    return np.asarray(bands.mean(axis=0), np.float32)
+            bands = warped.read(colour_bands(raster), masked=True).astype(np.float32)
+    return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)
 
 
 def read_elevation(path: str) -> xr.DataArray:

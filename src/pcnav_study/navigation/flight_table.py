@@ -10,8 +10,10 @@ import pandas as pd
 from pyproj import CRS
 
 from pcnav_study.errors import InputError
+from pcnav_study.frames.cameras import camera_from_file
 from pcnav_study.frames.folder import FlightFolder
 from pcnav_study.frames.images import read_metadata
+from pcnav_study.frames.maps import metric_crs
 from pcnav_study.frames.poses import pose_records
 from pcnav_study.matching import METHODS
 from pcnav_study.navigation.localise import Fix, FlightSettings, Site, localise_frame
@@ -45,7 +47,7 @@ def localise_flight(
     ------
     InputError
         Before the first frame, for what concerns the whole flight: the method, the map, the
-        pose tables.
+        elevation model, the camera file, the pose tables.
     """
     if settings.method not in METHODS:
         raise InputError(
@@ -53,6 +55,10 @@ def localise_flight(
         )
     site = Site(folder)
     short_crs = _short(site.crs)
+    if folder.camera:
+        camera_from_file(folder.camera)
+    if folder.dem:
+        metric_crs(folder.dem)
     metadata = {path.name: read_metadata(path) for path in folder.frames}
     records = pose_records(folder.frames, metadata, folder.camera_pose, folder.flight_log)
     rng = np.random.default_rng(settings.seed)

@@ -122,6 +122,11 @@ class Site:
             return None
         heights = read_window(self.folder.dem, grid)
         if np.isnan(heights).all():
+            if np.isnan(read_window(self.folder.reference, grid)).all():
+                raise InputError(
+                    "off the map: neither map nor DEM covers the frame; "
+                    "give a map that covers the flight"
+                )
             raise InputError(
                 f"{Path(self.folder.dem).name} does not cover the frame; give a DEM that does"
             )
