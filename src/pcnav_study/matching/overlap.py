@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
 from pcnav_study.matching import spectrum as sp
 from pcnav_study.matching.pair import Pair
@@ -18,80 +19,103 @@ from pcnav_study.matching.windows import SMALLEST, Window
 
 Slices = tuple[slice, slice]
 TAPER = ("tukey", 0.5)
-EDGE = 0.25  # cycles/px, the highest frequency kept
+EDGE = 0.36  # cycles/px, the highest frequency kept along either axis
+BAND = 0.3  # cycles/px, standard deviation of the Gaussian low-pass
+SECTORS = 8
 
 
 class Band(NamedTuple):
-    """The coefficients that are kept of one transform, sorted by sector.
+    """The coefficients that are kept of one transform.
 
     Attributes
     ----------
-    index : (n,) int
-        Into the flattened half-plane spectrum.
-    omega : (2, n) float32
-        Radians/px along rows and columns.
-    weight : (n,) float32
-        Low-pass, twice for coefficients whose mirror image is left out; of unit sum.
-    first : (sectors,) int
-        Where each sector begins.
+    omega_rows, omega_cols : (r,), (c,) float32
+        Angular frequencies, radians/px; along the rows ascending, along the columns from 0.
+    bank : (sectors, r, c) float32
+        Low-pass of each angular sector, all together of unit sum.
     """
 
-    index: NDArray[np.intp]
-    omega: NDArray[np.float32]
-    weight: NDArray[np.float32]
-    first: NDArray[np.intp]
+    omega_rows: NDArray[np.float32]
+    omega_cols: NDArray[np.float32]
+    bank: NDArray[np.float32]
 
 
 class Overlap(NamedTuple):
-    """Unit phasors (n,) of a `Band`, and the whole-pixel shift they were taken at."""
+    """Unit phasors (r, c) of a `Band`, and the whole-pixel shift they were taken at."""
 
     phasors: NDArray[np.complex64]
     band: Band
-    shape: tuple[int, int]
     whole: NDArray[np.float64]
 
+    def turned(self, residual: NDArray[np.float64]) -> NDArray[np.complex64]:
+        """Phasors without the phase ramp of ``residual`` (row, column) px."""
+        rows = np.exp(1j * residual[0] * self.band.omega_rows).astype(np.complex64)
+        cols = np.exp(1j * residual[1] * self.band.omega_cols).astype(np.complex64)
+        turned: NDArray[np.complex64] = self.phasors * rows[:, None]
+        turned *= cols
+        return turned
 
-def overlap_of(pair: Pair, shift: NDArray[np.float64], sectors: int) -> Overlap | None:
+    def sector_sums(self, residual: NDArray[np.float64]) -> NDArray[np.float32]:
+        """Surface of each sector at ``residual``; their absolute values sum to 1 at most."""
+        bank = self.band.bank
+        real = self.turned(residual).real.ravel()
+        sums: NDArray[np.float32] = bank.reshape(len(bank), -1) @ real
+        return sums
+
+
+def overlap_of(pair: Pair, shift: NDArray[np.float64]) -> Overlap | None:
     """Both windows cropped to their overlap at the nearest whole shift; None if too small."""
-    whole = np.rint(shift + pair.offset)
+    whole = [round(float(s + o)) for s, o in zip(shift, pair.offset, strict=True)]
     cuts = [
-        _common(int(w), r, m)
+        _common(w, r, m)
         for w, r, m in zip(whole, pair.reference.shape, pair.moving.shape, strict=True)
     ]
     if min(c.stop - c.start for c, _ in cuts) < SMALLEST:
         return None
     one: Slices = (cuts[0][0], cuts[1][0])
     other: Slices = (cuts[0][1], cuts[1][1])
-    shape = (one[0].stop - one[0].start, one[1].stop - one[1].start)
-    step = 2 if min(shape) >= 48 else 1
-    low = sp.low_spectrum(_stacked(pair, one, other), shape, step)
-    band = band_of(shape, step, sectors)
-    ours, theirs = low.reshape(2, -1)[:, band.index]
+    ours, theirs = _low_pass(_stacked(pair, one, other))
     product = np.conj(theirs, out=theirs)
     product *= ours
-    return Overlap(sp.whitened(product), band, shape, whole - pair.offset)
+    band = band_of((one[0].stop - one[0].start, one[1].stop - one[1].start))
+    return Overlap(sp.whitened(product), band, np.array(whole) - pair.offset)
 
 
-@lru_cache(maxsize=256)
-def band_of(shape: tuple[int, int], step: int, sectors: int) -> Band:
-    """The band below ``EDGE`` of a spectrum from `spectrum.low_spectrum`."""
-    from pcnav_study.matching.sectors import BAND, sector_of
+def _low_pass(images: NDArray[np.float32]) -> sp.Spectrum:
+    """Spectra (2, r, c) of two images up to ``EDGE``, rows in ascending frequency."""
+    rows, cols = images.shape[1:]
+    high, wide = _edge(rows), _edge(cols)
+    half = fft.rfft(images, axis=-1)[..., : wide + 1]
+    full = fft.fft(half, axis=-2)
+    low: sp.Spectrum = np.concatenate((full[:, rows - high :], full[:, : high + 1]), axis=1)
+    return low
 
-    f_rows, f_cols = sp.frequencies(shape, step)
-    radius = np.hypot(f_rows, f_cols)
-    inside = (radius > 0) & (radius < EDGE) & ((f_cols > 0) | (f_rows > 0))
-    inside &= np.abs(f_rows) < 0.5 / step
-    index = np.flatnonzero(inside)
-    number = sector_of(f_rows, f_cols, sectors).ravel()[index]
-    order = np.argsort(number, kind="stable")
-    index, number = index[order], number[order]
-    weight = np.exp(-0.5 * radius.ravel()[index] ** 2 / BAND**2)
-    rows, cols = np.broadcast_arrays(f_rows, f_cols)
-    omega = 2 * np.pi * np.stack([rows.ravel()[index], cols.ravel()[index]])
-    first = np.unique(number, return_index=True)[1]
-    return Band(
-        index, omega.astype(np.float32), (weight / weight.sum()).astype(np.float32), first
-    )
+
+def _edge(length: int) -> int:
+    """Highest harmonic kept; the last one of an even length has no sign and is left out."""
+    return min(int(EDGE * length), (length - 1) // 2)
+
+
+@lru_cache(maxsize=128)
+def band_of(shape: tuple[int, int]) -> Band:
+    """The band of an overlap of ``shape``."""
+    rows = np.arange(-_edge(shape[0]), _edge(shape[0]) + 1)[:, None] / shape[0]
+    cols = np.arange(_edge(shape[1]) + 1)[None, :] / shape[1]
+    squared = rows**2 + cols**2
+    weight = np.exp(-0.5 * squared / BAND**2) * ((cols > 0) | (rows > 0))
+    weight[squared > EDGE**2] = 0.0
+    weight /= weight.sum()
+    which = sector_of(rows, cols)
+    bank = (which == np.arange(SECTORS)[:, None, None]) * weight
+    omega = [(2 * np.pi * f.ravel()).astype(np.float32) for f in (rows, cols)]
+    return Band(omega[0], omega[1], bank.astype(np.float32))
+
+
+def sector_of(rows: NDArray[np.float64], cols: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Number of the angular sector of a frequency and of its opposite."""
+    angle = np.arctan2(rows, cols) % np.pi
+    number: NDArray[np.intp] = np.minimum(angle / np.pi * SECTORS, SECTORS - 1).astype(np.intp)
+    return number
 
 
 def _common(whole: int, reference: int, moving: int) -> tuple[slice, slice]:

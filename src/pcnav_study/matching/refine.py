@@ -1,6 +1,12 @@
-"""From a coarse shift to a sub-pixel one: read the signs, repair the spectrum, fit it."""
+"""From a coarse shift to a sub-pixel one: read the signs, repair the spectrum, fit it.
+
+Both windows are first cropped to their overlap. Sector energy, pixel by pixel, finds the
+summit there without regard to any sign; at the summit each sector's sign is read off.
+"""
 
 from __future__ import annotations
+
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,41 +14,66 @@ from numpy.typing import NDArray
 from pcnav_study.errors import InputError
 from pcnav_study.matching.overlap import Overlap, overlap_of
 from pcnav_study.matching.pair import Pair
-from pcnav_study.matching.subpixel import ESTIMATORS, peak_of
+from pcnav_study.matching.subpixel import ESTIMATORS
+from pcnav_study.matching.surface import quadratic_peak
 
-SECTORS = 8
 DEFAULT = "plane-fit"
+PREFERENCE = 0.3  # share of a negative sector's energy that is left out
 
 
-def refined(pair: Pair, shift: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """Sub-pixel shift near ``shift``, and the Dirac-delta quality there.
+def refined(
+    pair: Pair, shift: NDArray[np.float64], around: int = 2
+) -> tuple[NDArray[np.float64], float]:
+    """Sub-pixel shift within ``around`` px of ``shift``, and the Dirac-delta quality there.
 
-    Signs are read at the present shift and again at the better one; where that lies
-    more than a pixel off, the overlap is cut anew around it.
+    Where the summit lies more than 1.5 px off, the overlap is cut anew around it.
+
+    Raises
+    ------
+    InputError
+        For an unknown ``pair.subpixel``.
     """
-    overlap = overlap_of(pair, shift, SECTORS)
-    if overlap is None:
-        return shift, 0.0
-    residual = peak_of(overlap, signed_weight(overlap, shift - overlap.whole))
-    if np.abs(residual).max() > 0.75:
-        moved = overlap_of(pair, overlap.whole + residual, SECTORS)
-        if moved is not None:
-            residual = residual + overlap.whole - moved.whole
-            overlap = moved
     name = pair.subpixel or DEFAULT
     if name not in ESTIMATORS:
         raise InputError(f"subpixel {name!r} is unknown; use one of {', '.join(ESTIMATORS)}")
-    residual = ESTIMATORS[name](overlap, signed_weight(overlap, residual))
+    overlap = overlap_of(pair, shift)
+    if overlap is None:
+        return shift, 0.0
+    residual = summit(overlap, around)
+    if np.abs(residual).max() > 1.5:
+        moved = overlap_of(pair, overlap.whole + residual)
+        if moved is not None:
+            residual = residual + overlap.whole - moved.whole
+            overlap = moved
+    residual = ESTIMATORS[name](overlap, signed_weight(overlap, residual), residual)
     return overlap.whole + residual, delta_quality(overlap, residual)
+
+
+def summit(overlap: Overlap, around: int) -> NDArray[np.float64]:
+    """Residual (row, column) of the highest sector energy within ``around`` px."""
+    rows, cols = (_waves(omega.size, float(omega[-1]), omega[0] < 0, around)
+                  for omega in overlap.band[:2])
+    surfaces = np.matmul(np.matmul(rows, overlap.band.bank * overlap.phasors), cols.T).real
+    total = energy(surfaces)
+    peak = divmod(int(total.argmax()), total.shape[1])
+    return np.array(peak) - around + quadratic_peak(total, peak)
+
+
+def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Sum of the squared surfaces (sectors, rows, columns), a little less of the negative."""
+    squares = np.abs(surfaces)
+    squares += np.float32(PREFERENCE / (2 - PREFERENCE)) * surfaces
+    squares *= squares
+    total: NDArray[np.float32] = squares.sum(axis=0)
+    return total
 
 
 def signed_weight(overlap: Overlap, residual: NDArray[np.float64]) -> NDArray[np.float32]:
     """Weight of every coefficient, with the sign of its sector at ``residual``."""
-    band = overlap.band
-    sums = _sector_sums(overlap, residual)
-    counts = np.diff(np.append(band.first, band.index.size))
-    signed: NDArray[np.float32] = band.weight * np.repeat(np.sign(sums), counts)
-    return signed.astype(np.float32)
+    signs = np.sign(overlap.sector_sums(residual))
+    bank = overlap.band.bank
+    signed: NDArray[np.float32] = (signs @ bank.reshape(len(bank), -1)).reshape(bank.shape[1:])
+    return signed
 
 
 def delta_quality(overlap: Overlap, residual: NDArray[np.float64]) -> float:
@@ -51,12 +82,14 @@ def delta_quality(overlap: Overlap, residual: NDArray[np.float64]) -> float:
     Both are seen through the same low-pass, so by Parseval's theorem it is the sum of
     the sectors' absolute surfaces there, whatever sign each has.
     """
-    return float(min(np.abs(_sector_sums(overlap, residual)).sum(), 1.0))
+    return min(float(np.abs(overlap.sector_sums(residual)).sum()), 1.0)
 
 
-def _sector_sums(overlap: Overlap, residual: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Surface of each sector at ``residual`` (row, column) px."""
-    band = overlap.band
-    turned = overlap.phasors * np.exp(1j * (residual.astype(np.float32) @ band.omega))
-    sums: NDArray[np.float32] = np.add.reduceat(turned.real * band.weight, band.first)
-    return sums
+@lru_cache(maxsize=256)
+def _waves(size: int, highest: float, two_sided: bool, around: int) -> NDArray[np.complex64]:
+    """exp(i w x), (2 around + 1, size), for every pixel x up to ``around`` away."""
+    omega = np.linspace(-highest if two_sided else 0.0, highest, size)
+    waves: NDArray[np.complex64] = np.exp(
+        1j * np.outer(np.arange(-around, around + 1), omega)
+    ).astype(np.complex64)
+    return waves

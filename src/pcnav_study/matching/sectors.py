@@ -19,48 +19,50 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pcnav_study.matching import spectrum as sp
+from pcnav_study.matching.overlap import SECTORS, sector_of
 from pcnav_study.matching.orientation import orientation_spectrum
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
-from pcnav_study.matching.refine import refined
+from pcnav_study.matching.refine import energy, refined
 from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
-SECTORS = 8
 BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass
-PREFERENCE = 0.3  # share of a negative sector's energy that is left out
 ORIENTATION = 1.5  # weight of the orientation surface
+NEARBY = 3  # px
 TAPER = ("tukey", 0.25)
 
 
 def sector_phase_correlation(pair: Pair) -> Found:
-    """The default method: sector energy, then signs, repair and a sub-pixel estimate."""
-    surface = sector_surface(pair)
-    shift, quality = refined(pair, surface.best_shift())
-    return Found(surface, shift, quality)
+    """The default method: sector energy, then signs, repair and a sub-pixel estimate.
+
+    The last search, pixel by pixel, is by sector energy alone: near the true shift
+    gradients turn with the sun, so that their correlation peaks some 2 px off it.
+    """
+    score = score_surface(pair)
+    row, col = score.peak()
+    coarse = np.array(score.origin) + score.step * np.array([row, col])
+    shift, quality = refined(pair, coarse, NEARBY + score.step - 1)
+    return Found(score, shift, quality)
 
 
-def sector_surface(pair: Pair) -> Surface:
-    """Combined sector energy and orientation correlation of every candidate shift."""
-    search = Search.of(pair, step_of(pair.reference.shape))
+def sector_spectra(pair: Pair, search: Search) -> sp.Spectrum:
+    """Cross-power spectrum of each sector, and last the orientation's, (SECTORS + 1, ...)."""
     product = cross_power(pair, search, TAPER)
-    bank = sector_bank(search.shape, search.step, SECTORS)
     stack = np.empty((SECTORS + 1, *product.shape), np.complex64)
-    np.multiply(product, bank, out=stack[:-1])
+    np.multiply(product, sector_bank(search.shape, search.step), out=stack[:-1])
     _orientation_product(pair, search, out=stack[-1])
-    surfaces = sp.part_of_surface(stack, search.shape[1] // search.step, search.size)
+    return stack
+
+
+def score_surface(pair: Pair) -> Surface:
+    """Sector energy plus orientation correlation of every candidate shift."""
+    search = Search.of(pair, step_of(pair.reference.shape))
+    spectra = sector_spectra(pair, search)
+    surfaces = sp.part_of_surface(spectra, search.shape[1] // search.step, search.size)
     score = _in_scatter(energy(surfaces[:-1]))
     score += np.float32(ORIENTATION) * _in_scatter(surfaces[-1])
     return search.surface(pair, score)
-
-
-def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Sum of the squared surfaces (sectors, rows, columns), a little less of the negative."""
-    squares = surfaces * np.abs(surfaces)
-    weight = np.float32(PREFERENCE / (2 - PREFERENCE))
-    total: NDArray[np.float32] = np.einsum("kij,kij->ij", surfaces, surfaces)
-    total += weight * squares.sum(axis=0)
-    return total
 
 
 def step_of(shape: tuple[int, int]) -> int:
@@ -70,28 +72,18 @@ def step_of(shape: tuple[int, int]) -> int:
 
 
 @lru_cache(maxsize=64)
-def sector_bank(shape: tuple[int, int], step: int, sectors: int) -> NDArray[np.float32]:
-    """Low-passed indicator of each angular sector, (sectors, rows, columns)."""
+def sector_bank(shape: tuple[int, int], step: int) -> NDArray[np.float32]:
+    """Low-passed indicator of each angular sector, (SECTORS, rows, columns)."""
     f_rows, f_cols = sp.frequencies(shape, step)
     squared = f_rows**2 + f_cols**2
     weight = np.exp(-0.5 * squared / BAND**2) * (squared > 0)
     if step > 1:
         weight *= (f_rows > -0.5 / step) & (f_cols < 0.5 / step)
-    which = sector_of(f_rows, f_cols, sectors)
     bank: NDArray[np.float32] = (
-        (which == np.arange(sectors)[:, None, None]) * weight
+        (sector_of(f_rows, f_cols) == np.arange(SECTORS)[:, None, None]) * weight
     ).astype(np.float32)
     bank.flags.writeable = False
     return bank
-
-
-def sector_of(
-    f_rows: NDArray[np.float64], f_cols: NDArray[np.float64], sectors: int
-) -> NDArray[np.intp]:
-    """Number of the sector, 0 to ``sectors`` - 1, of a frequency and of its opposite."""
-    angle = np.arctan2(f_rows, f_cols) % np.pi
-    number: NDArray[np.intp] = np.minimum(angle / np.pi * sectors, sectors - 1).astype(np.intp)
-    return number
 
 
 def _orientation_product(pair: Pair, search: Search, out: sp.Spectrum) -> None:

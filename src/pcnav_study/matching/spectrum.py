@@ -81,8 +81,8 @@ def low_spectrum(image: NDArray[np.float32], shape: tuple[int, int], step: int) 
 def part_of_surface(
     spectrum: Spectrum, cols: int, size: tuple[int, int]
 ) -> NDArray[np.float32]:
-    """The first ``size`` (rows, columns) of the inverse transform; overwrites ``spectrum``."""
-    columns = fft.ifft(spectrum, axis=-2, overwrite_x=True)[..., : size[0], :]
+    """The first ``size`` (rows, columns) of the inverse transform."""
+    columns = fft.ifft(spectrum, axis=-2)[..., : size[0], :]
     surface: NDArray[np.float32] = fft.irfft(columns, cols, axis=-1)[..., : size[1]]
     return surface
 

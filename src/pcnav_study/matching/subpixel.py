@@ -1,8 +1,8 @@
 """Where between the pixels the shift lies: three estimators on a sign-repaired spectrum.
 
-Each takes the unit phasors of an overlap and one weight per coefficient that carries
-the sector's sign, and returns the residual shift (row, column) in px. The phasor at
-angular frequency w of a residual d is exp(-i w . d), times the sign.
+Each takes an overlap's unit phasors, one weight per coefficient that carries its
+sector's sign, and a first guess, and returns the residual shift (row, column) in px. The
+phasor at angular frequency w of a residual d is exp(-i w . d), times the sign.
 
 References
 ----------
@@ -15,7 +15,6 @@ References
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,70 +22,64 @@ from numpy.typing import NDArray
 from pcnav_study.matching.overlap import Overlap
 
 Shift = NDArray[np.float64]
-Estimator = Callable[[Overlap, NDArray[np.float32]], Shift]
-LARGEST = 1.5  # px, a residual beyond it belongs to another whole pixel
+Estimator = Callable[[Overlap, NDArray[np.float32], Shift], Shift]
+LARGEST = 1.0  # px, how far an estimate may leave its first guess
 
 
-def plane_fit(overlap: Overlap, weight: NDArray[np.float32]) -> Shift:
+def plane_fit(overlap: Overlap, weight: NDArray[np.float32], guess: Shift) -> Shift:
     """Weighted least squares on the phase plane, reweighted by the misfit [3]_ [4]_.
 
     The phase is taken about the present estimate, so it needs no unwrapping, and a
-    coefficient counts by (1 + cos(misfit)) / 2, squared.
+    coefficient counts by the fourth power of the cosine of half its misfit.
     """
-    omega = overlap.band.omega
-    sign, size = np.sign(weight), np.abs(weight)
-    phasors = overlap.phasors * sign
-    shift = peak_of(overlap, weight)
+    shift = guess
+    rows, cols = (_powers(w) for w in (overlap.band.omega_rows, overlap.band.omega_cols))
+    size, sign = np.abs(weight), np.sign(weight)
     for _ in range(2):
-        turned = phasors * np.exp(1j * (shift.astype(np.float32) @ omega))
-        counted = size * (0.5 + 0.5 * turned.real) ** 2
-        shift = shift - _solve(omega * counted, omega, np.arctan2(turned.imag, turned.real))
-    return np.clip(shift, -LARGEST, LARGEST)
+        turned = overlap.turned(shift)
+        turned *= sign
+        counted = turned.real + np.float32(1.0)
+        counted *= counted
+        counted *= size
+        normal = rows @ counted @ cols.T
+        counted *= np.arctan2(turned.imag, turned.real)
+        right = rows[:2] @ counted @ cols[:2].T
+        shift = shift - _solved(normal, right)
+    return np.clip(shift, guess - LARGEST, guess + LARGEST)
 
 
-def peak_of(overlap: Overlap, weight: NDArray[np.float32], rounds: int = 3) -> Shift:
-    """The summit of the phase-correlation surface, by Newton's method from zero shift."""
-    omega = overlap.band.omega
-    shift = np.zeros(2)
-    for _ in range(rounds):
-        turned = weight * overlap.phasors * np.exp(1j * (shift.astype(np.float32) @ omega))
-        step = _solve(omega * np.maximum(turned.real, 0), omega, None, turned.imag)
-        shift = np.clip(shift - np.clip(step, -0.7, 0.7), -LARGEST, LARGEST)
-    return shift
-
-
-def upsampled_dft(overlap: Overlap, weight: NDArray[np.float32], factor: int = 100) -> Shift:
+def upsampled_dft(
+    overlap: Overlap, weight: NDArray[np.float32], guess: Shift, factor: int = 100
+) -> Shift:
     """Peak of the surface evaluated every 1 / ``factor`` px by a matrix transform [1]_.
 
     First every tenth of a pixel, then every hundredth around the best.
     """
-    shift = np.zeros(2)
+    shift = guess
+    phasors = overlap.phasors * weight
     for reach, spacing in ((LARGEST, 0.1), (0.1, 1 / factor)):
         grid = np.arange(-reach, reach + spacing / 2, spacing)
         rows, cols = (
-            np.exp(1j * np.outer(grid + centre, omega))
-            for centre, omega in zip(shift, overlap.band.omega, strict=True)
+            np.exp(1j * np.outer(grid + centre, omega)).astype(np.complex64)
+            for centre, omega in zip(shift, overlap.band[:2], strict=True)
         )
-        surface = ((rows * (weight * overlap.phasors)) @ cols.T).real
-        best = np.unravel_index(surface.argmax(), surface.shape)
-        shift = shift + grid[np.array(best)]
+        surface = (rows @ phasors @ cols.T).real
+        shift = shift + grid[np.array(np.unravel_index(surface.argmax(), surface.shape))]
     return shift
 
 
-def svd_fit(overlap: Overlap, weight: NDArray[np.float32]) -> Shift:
-    """Slopes of the two dominant singular vectors' phases [2]_.
+def svd_fit(overlap: Overlap, weight: NDArray[np.float32], guess: Shift) -> Shift:
+    """Phase slopes of the two dominant singular vectors [2]_.
 
-    A pure shift makes the spectrum a matrix of rank one, a product of a row and a
+    A pure shift makes the spectrum a matrix of rank one, the product of a row and a
     column factor, each with a linear phase.
     """
-    omega = np.round(overlap.band.omega, 6)
-    values, cells = zip(*(np.unique(axis, return_inverse=True) for axis in omega), strict=True)
-    matrix = np.zeros((values[0].size, values[1].size), np.complex128)
-    matrix[cells[0], cells[1]] = weight * overlap.phasors
-    left, _, right = np.linalg.svd(matrix, full_matrices=False)
-    return np.clip(
-        [-_slope(values[0], left[:, 0]), -_slope(values[1], right[0])], -LARGEST, LARGEST
-    )
+    left, _, right = np.linalg.svd(overlap.turned(guess) * weight, full_matrices=False)
+    slopes = [
+        _slope(overlap.band.omega_rows, left[:, 0]),
+        _slope(overlap.band.omega_cols, right[0]),
+    ]
+    return guess - np.clip(slopes, -LARGEST, LARGEST)
 
 
 ESTIMATORS: dict[str, Estimator] = {
@@ -96,26 +89,27 @@ ESTIMATORS: dict[str, Estimator] = {
 }
 
 
-def _solve(
-    weighted: NDArray[Any],
-    omega: NDArray[np.float32],
-    phase: NDArray[Any] | None,
-    already_weighted: NDArray[Any] | None = None,
-) -> Shift:
-    """Least-squares d of ``phase = -omega . d``, negated; zero where it is not determined."""
-    (a, b), (_, d) = (weighted @ omega.T).tolist()
-    right = weighted @ phase if already_weighted is None else omega @ already_weighted
-    y, x = (-right).tolist()
-    determinant = a * d - b * b
-    if not determinant > 1e-12 * a * d:
+def _powers(omega: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(3, n): the powers 0, 1 and 2."""
+    return np.stack([np.ones_like(omega), omega, omega * omega])
+
+
+def _solved(normal: NDArray[np.float32], right: NDArray[np.float32]) -> Shift:
+    """Slopes of a plane through the origin, from moments indexed by powers of omega.
+
+    Zero where the coefficients do not determine both.
+    """
+    rows, cross, cols = float(normal[2, 0]), float(normal[1, 1]), float(normal[0, 2])
+    y, x = float(right[1, 0]), float(right[0, 1])
+    determinant = rows * cols - cross * cross
+    if not determinant > 1e-9 * rows * cols:
         return np.zeros(2)
-    return -np.array([(d * y - b * x) / determinant, (a * x - b * y) / determinant])
+    return np.array([cols * y - cross * x, rows * x - cross * y]) / determinant
 
 
-def _slope(omega: NDArray[np.float64], vector: NDArray[np.complex128]) -> float:
-    """Phase slope of a singular vector, by least squares weighted with its modulus."""
-    phase = np.unwrap(np.angle(vector))
-    weight = np.abs(vector) ** 2
-    weight /= weight.sum()
-    centred = omega - weight @ omega
+def _slope(omega: NDArray[np.float32], vector: NDArray[np.complex64]) -> float:
+    """Phase slope of a singular vector, by least squares weighted with its energy."""
+    phase = np.unwrap(np.angle(vector).astype(np.float64))
+    weight = np.abs(vector).astype(np.float64) ** 2
+    centred = omega - weight @ omega / weight.sum()
     return float((weight * centred) @ phase / max((weight * centred) @ centred, 1e-30))
