@@ -18,9 +18,10 @@ from pcnav_study.matching.pair import Pair
 from pcnav_study.matching.windows import SMALLEST, Window
 
 Slices = tuple[slice, slice]
-TAPER = ("tukey", 0.5)
 EDGE = 0.36  # cycles/px, the highest frequency kept along either axis
-BAND = 0.3  # cycles/px, standard deviation of the Gaussian low-pass
+LONGEST = 320  # px per side of a crop; shading, not the number of pixels, limits beyond it
+HARMONICS = 80  # kept along an axis, at most
+SMALL = 80  # px; below it rim and noise weigh more than the last bit of accuracy
 SECTORS = 8
 
 
@@ -81,6 +82,11 @@ def overlap_of(pair: Pair, shift: NDArray[np.float64]) -> Overlap | None:
     return Overlap(sp.whitened(product), band, np.array(whole) - pair.offset)
 
 
+def _band_and_taper(shape: tuple[int, int]) -> tuple[float, sp.Taper]:
+    """Standard deviation of the Gaussian low-pass, cycles/px, and the taper."""
+    return (0.2, ("tukey", 0.25)) if min(shape) < SMALL else (0.3, ("tukey", 0.5))
+
+
 def _low_pass(images: NDArray[np.float32]) -> sp.Spectrum:
     """Spectra (2, r, c) of two images up to ``EDGE``, rows in ascending frequency."""
     rows, cols = images.shape[1:]
@@ -93,7 +99,7 @@ def _low_pass(images: NDArray[np.float32]) -> sp.Spectrum:
 
 def _edge(length: int) -> int:
     """Highest harmonic kept; the last one of an even length has no sign and is left out."""
-    return min(int(EDGE * length), (length - 1) // 2)
+    return min(int(EDGE * length), (length - 1) // 2, HARMONICS)
 
 
 @lru_cache(maxsize=128)
@@ -102,7 +108,7 @@ def band_of(shape: tuple[int, int]) -> Band:
     rows = np.arange(-_edge(shape[0]), _edge(shape[0]) + 1)[:, None] / shape[0]
     cols = np.arange(_edge(shape[1]) + 1)[None, :] / shape[1]
     squared = rows**2 + cols**2
-    weight = np.exp(-0.5 * squared / BAND**2) * ((cols > 0) | (rows > 0))
+    weight = np.exp(-0.5 * squared / _band_and_taper(shape)[0] ** 2) * ((cols > 0) | (rows > 0))
     weight[squared > EDGE**2] = 0.0
     weight /= weight.sum()
     which = sector_of(rows, cols)
@@ -126,7 +132,7 @@ def _common(whole: int, reference: int, moving: int) -> tuple[slice, slice]:
     first, last = max(0, whole), min(reference, whole + moving)
     length = max(last - first, 0)
     unit = 16 if length >= 64 else 4 if length >= 16 else 1
-    usable = length // unit * unit
+    usable = min(length // unit * unit, LONGEST)
     start = first + (length - usable) // 2
     return slice(start, start + usable), slice(start - whole, start - whole + usable)
 
@@ -136,13 +142,15 @@ def _stacked(pair: Pair, one: Slices, other: Slices) -> NDArray[np.float32]:
     rows, cols = one
     shape = (rows.stop - rows.start, cols.stop - cols.start)
     both = np.empty((2, *shape), np.float32)
-    weight = sp.taper(shape, TAPER)
+    weight = sp.taper(shape, _band_and_taper(shape)[1])
     weight = weight * _valid(pair.reference, one) * _valid(pair.moving, other)
     for out, window, cut in zip(both, (pair.reference, pair.moving), (one, other), strict=True):
         image = window.values[cut]
         if window.valid is not None:
             image = np.where(window.valid[cut], image, window.mean)
         np.subtract(image, image.dtype.type(image.mean()), out=out, casting="same_kind")
+        if not window.is_tame:
+            out /= np.float32(max(float(np.abs(out).max()), 1e-37))
         out *= weight
     return both
 

@@ -133,7 +133,7 @@ def _share(surface: Surface) -> float:
     """Root of the energy within 3 x 3 px of the peak, where the whole energy is 1 / size."""
     row, col = surface.peak()
     near = surface.values[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2].ravel()
-    return min(float(np.dot(near, near)) ** 0.5, 1.0)
+    return float(min(np.sqrt(np.dot(near, near)), 1.0))
 
 
 @lru_cache(maxsize=32)

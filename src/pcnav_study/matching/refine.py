@@ -11,7 +11,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pcnav_study.errors import InputError
 from pcnav_study.matching.overlap import Overlap, overlap_of
 from pcnav_study.matching.pair import Pair
 from pcnav_study.matching.subpixel import ESTIMATORS
@@ -27,36 +26,40 @@ def refined(
     """Sub-pixel shift within ``around`` px of ``shift``, and the Dirac-delta quality there.
 
     Where the summit lies more than 1.5 px off, the overlap is cut anew around it.
-
-    Raises
-    ------
-    InputError
-        For an unknown ``pair.subpixel``.
     """
-    name = pair.subpixel or DEFAULT
-    if name not in ESTIMATORS:
-        raise InputError(f"subpixel {name!r} is unknown; use one of {', '.join(ESTIMATORS)}")
     overlap = overlap_of(pair, shift)
     if overlap is None:
         return shift, 0.0
-    residual = summit(overlap, around)
+    residual, sectors = summit(overlap, around)
     if np.abs(residual).max() > 1.5:
         moved = overlap_of(pair, overlap.whole + residual)
         if moved is not None:
-            residual = residual + overlap.whole - moved.whole
             overlap = moved
-    residual = ESTIMATORS[name](overlap, signed_weight(overlap, residual), residual)
+            residual, sectors = summit(overlap, 1)
+    bank = overlap.band.bank
+    signed = (np.sign(sectors) @ bank.reshape(len(bank), -1)).reshape(bank.shape[1:])
+    residual = ESTIMATORS[pair.subpixel or DEFAULT](overlap, signed, residual)
     return overlap.whole + residual, delta_quality(overlap, residual)
 
 
-def summit(overlap: Overlap, around: int) -> NDArray[np.float64]:
-    """Residual (row, column) of the highest sector energy within ``around`` px."""
-    rows, cols = (_waves(omega.size, float(omega[-1]), omega[0] < 0, around)
-                  for omega in overlap.band[:2])
+def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+    """The highest sector energy within ``around`` px.
+
+    Returns
+    -------
+    residual : (row, column), px
+    sectors : (sectors,)
+        Every sector's surface at the nearest whole pixel.
+    """
+    rows, cols = (
+        _waves(omega.size, float(omega[-1]), bool(omega[0] < 0), around)
+        for omega in overlap.band[:2]
+    )
     surfaces = np.matmul(np.matmul(rows, overlap.band.bank * overlap.phasors), cols.T).real
     total = energy(surfaces)
-    peak = divmod(int(total.argmax()), total.shape[1])
-    return np.array(peak) - around + quadratic_peak(total, peak)
+    row, col = divmod(int(total.argmax()), total.shape[1])
+    residual = np.array([row - around, col - around]) + quadratic_peak(total, (row, col))
+    return residual, surfaces[:, row, col]
 
 
 def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -68,12 +71,10 @@ def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
     return total
 
 
-def signed_weight(overlap: Overlap, residual: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Weight of every coefficient, with the sign of its sector at ``residual``."""
-    signs = np.sign(overlap.sector_sums(residual))
-    bank = overlap.band.bank
-    signed: NDArray[np.float32] = (signs @ bank.reshape(len(bank), -1)).reshape(bank.shape[1:])
-    return signed
+def quality_at(pair: Pair, shift: NDArray[np.float64]) -> float:
+    """The Dirac-delta quality of a shift found by any method."""
+    overlap = overlap_of(pair, shift)
+    return 0.0 if overlap is None else delta_quality(overlap, shift - overlap.whole)
 
 
 def delta_quality(overlap: Overlap, residual: NDArray[np.float64]) -> float:

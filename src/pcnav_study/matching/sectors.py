@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pcnav_study.matching import spectrum as sp
-from pcnav_study.matching.overlap import SECTORS, sector_of
 from pcnav_study.matching.orientation import orientation_spectrum
+from pcnav_study.matching.overlap import SECTORS, sector_of
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
 from pcnav_study.matching.refine import energy, refined
@@ -36,13 +36,17 @@ TAPER = ("tukey", 0.25)
 def sector_phase_correlation(pair: Pair) -> Found:
     """The default method: sector energy, then signs, repair and a sub-pixel estimate.
 
-    The last search, pixel by pixel, is by sector energy alone: near the true shift
-    gradients turn with the sun, so that their correlation peaks some 2 px off it.
+    Small windows try several peaks. The last search, pixel by pixel, is by sector energy
+    alone: near the true shift gradients turn with the sun, so that their correlation peaks
+    some 2 px off it.
     """
     score = score_surface(pair)
-    row, col = score.peak()
-    coarse = np.array(score.origin) + score.step * np.array([row, col])
-    shift, quality = refined(pair, coarse, NEARBY + score.step - 1)
+    contenders = 4 if min(pair.moving.shape) < 48 else 1
+    answers = [
+        refined(pair, np.array(score.origin) + score.step * np.array(peak), NEARBY + score.step - 1)
+        for peak in score.peaks(contenders)
+    ]
+    shift, quality = max(answers, key=lambda answer: answer[1])
     return Found(score, shift, quality)
 
 
@@ -97,9 +101,7 @@ def _orientation_product(pair: Pair, search: Search, out: sp.Spectrum) -> None:
         plain = orientation_spectrum(window, shape, step)
         return np.conj(plain, out=plain)
 
-    one = pair.reference.kept(
-        ("orientation", shape, step, start), lambda: delayed(pair.reference)
-    )
+    one = pair.reference.kept(("orientation", shape, step, start), lambda: delayed(pair.reference))
     other = pair.moving.kept(("orientation*", shape, step), lambda: conjugate(pair.moving))
     np.multiply(one[0], other[0], out=out)
     out += one[1] * other[1]

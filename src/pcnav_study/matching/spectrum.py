@@ -78,9 +78,7 @@ def low_spectrum(image: NDArray[np.float32], shape: tuple[int, int], step: int) 
     return low
 
 
-def part_of_surface(
-    spectrum: Spectrum, cols: int, size: tuple[int, int]
-) -> NDArray[np.float32]:
+def part_of_surface(spectrum: Spectrum, cols: int, size: tuple[int, int]) -> NDArray[np.float32]:
     """The first ``size`` (rows, columns) of the inverse transform."""
     columns = fft.ifft(spectrum, axis=-2)[..., : size[0], :]
     surface: NDArray[np.float32] = fft.irfft(columns, cols, axis=-1)[..., : size[1]]
@@ -108,5 +106,6 @@ def whitened(product: Spectrum) -> Spectrum:
     """Every coefficient divided by its modulus; zero where it is zero. Overwrites its input."""
     modulus = np.abs(product)
     np.maximum(modulus, np.float32(1e-30), out=modulus)
-    product /= modulus
+    np.reciprocal(modulus, out=modulus)
+    product *= modulus
     return product

@@ -34,17 +34,18 @@ def plane_fit(overlap: Overlap, weight: NDArray[np.float32], guess: Shift) -> Sh
     """
     shift = guess
     rows, cols = (_powers(w) for w in (overlap.band.omega_rows, overlap.band.omega_cols))
-    size, sign = np.abs(weight), np.sign(weight)
     for _ in range(2):
         turned = overlap.turned(shift)
-        turned *= sign
-        counted = turned.real + np.float32(1.0)
+        turned *= weight
+        real, imaginary = turned.real.copy(), turned.imag.copy()
+        size = np.abs(turned)
+        counted = size + real
         counted *= counted
-        counted *= size
-        normal = rows @ counted @ cols.T
-        counted *= np.arctan2(turned.imag, turned.real)
-        right = rows[:2] @ counted @ cols[:2].T
-        shift = shift - _solved(normal, right)
+        np.divide(counted, np.maximum(size, np.float32(1e-12)), out=counted)
+        normal: NDArray[np.float32] = rows @ counted @ cols.T
+        counted *= np.arctan2(imaginary, real)
+        right: NDArray[np.float32] = rows[:2] @ counted @ cols[:2].T
+        shift = np.subtract(shift, _solved(normal, right))
     return np.clip(shift, guess - LARGEST, guess + LARGEST)
 
 
@@ -79,7 +80,7 @@ def svd_fit(overlap: Overlap, weight: NDArray[np.float32], guess: Shift) -> Shif
         _slope(overlap.band.omega_rows, left[:, 0]),
         _slope(overlap.band.omega_cols, right[0]),
     ]
-    return guess - np.clip(slopes, -LARGEST, LARGEST)
+    return np.asarray(guess - np.clip(slopes, -LARGEST, LARGEST))
 
 
 ESTIMATORS: dict[str, Estimator] = {
@@ -104,7 +105,7 @@ def _solved(normal: NDArray[np.float32], right: NDArray[np.float32]) -> Shift:
     determinant = rows * cols - cross * cross
     if not determinant > 1e-9 * rows * cols:
         return np.zeros(2)
-    return np.array([cols * y - cross * x, rows * x - cross * y]) / determinant
+    return np.array([(cols * y - cross * x) / determinant, (rows * x - cross * y) / determinant])
 
 
 def _slope(omega: NDArray[np.float32], vector: NDArray[np.complex64]) -> float:

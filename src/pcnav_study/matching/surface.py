@@ -32,6 +32,17 @@ class Surface:
         row, col = divmod(int(self.values.argmax()), self.values.shape[1])
         return row, col
 
+    def peaks(self, count: int) -> list[tuple[int, int]]:
+        """Indices of the best candidates, best first, at least 3 apart along an axis."""
+        if count == 1:
+            return [self.peak()]
+        left, found = self.values.copy(), []
+        for _ in range(min(count, left.size)):
+            row, col = divmod(int(left.argmax()), left.shape[1])
+            found.append((row, col))
+            left[max(row - 2, 0) : row + 3, max(col - 2, 0) : col + 3] = -np.inf
+        return found
+
     def best_shift(self) -> NDArray[np.float64]:
         """Shift of the peak in px, refined by a quadratic through its neighbours."""
         row, col = self.peak()
@@ -46,9 +57,7 @@ class Surface:
         return int(row), int(col)
 
 
-def quadratic_peak(
-    values: NDArray[np.floating[Any]], peak: tuple[int, int]
-) -> tuple[float, float]:
+def quadratic_peak(values: NDArray[np.floating[Any]], peak: tuple[int, int]) -> tuple[float, float]:
     """Offset (row, column) of the summit of a quadratic through the 3 x 3 neighbourhood.
 
     All six coefficients are fitted by least squares: a separable parabola ignores the

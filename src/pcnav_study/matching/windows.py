@@ -54,6 +54,11 @@ class Window:
         """True where there is nothing to match: no valid pixel, or one value throughout."""
         return not self.high > self.low
 
+    @property
+    def is_tame(self) -> bool:
+        """True where products of two spectra stay within single precision."""
+        return 1e-4 < self.high - self.low < 1e6
+
     def kept(self, key: Hashable, compute: Callable[[], T]) -> T:
         """The value stored under ``key``, computed at the first call."""
         if key not in self._store:
@@ -67,8 +72,8 @@ class Window:
         """
         out = np.empty(self.shape, np.float32)
         np.subtract(self.values, self.values.dtype.type(self.mean), out=out, casting="same_kind")
-        span = self.high - self.low
-        if not 1e-4 < span < 1e6:
+        if not self.is_tame:
+            span = self.high - self.low
             exact = (self.values.astype(np.float64) - self.mean) / max(span, 1e-300)
             out[...] = exact
         if self.valid is not None:
@@ -114,11 +119,14 @@ def prepare(image: ArrayLike | Window, name: str = "image") -> Window:
     valid = ~np.isnan(values) if hidden is None else ~(np.isnan(values) | hidden)
     if valid.all():
         return Window(values, None)
-    return Window(np.where(valid, values, np.nan).astype(values.dtype), valid)
+    holed: NDArray[Any] = np.where(valid, values, np.nan).astype(values.dtype)
+    return Window(holed, valid)
 
 
 def _as_float(array: NDArray[Any]) -> Real:
     """Single precision where it is exact, else double; the very array if it already is."""
-    if array.dtype in (np.float32, np.float64):
-        return array.astype(array.dtype.newbyteorder("="), copy=False)
-    return array.astype(np.float32 if array.dtype.itemsize <= 2 else np.float64)
+    if array.dtype == np.float64 or (array.dtype != np.float32 and array.dtype.itemsize > 2):
+        double: NDArray[np.float64] = array.astype(np.float64, copy=False)
+        return double
+    single: NDArray[np.float32] = array.astype(np.float32, copy=False)
+    return single
