@@ -15,6 +15,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,9 +43,9 @@ def plane_fit(overlap: Overlap, weight: NDArray[np.float32], guess: Shift) -> Sh
         counted = size + real
         counted *= counted
         np.divide(counted, np.maximum(size, np.float32(1e-12)), out=counted)
-        normal: NDArray[np.float32] = rows @ counted @ cols.T
+        normal = rows @ counted @ cols.T
         counted *= np.arctan2(imaginary, real)
-        right: NDArray[np.float32] = rows[:2] @ counted @ cols[:2].T
+        right = rows[:2] @ counted @ cols[:2].T
         shift = np.subtract(shift, _solved(normal, right))
     return np.clip(shift, guess - LARGEST, guess + LARGEST)
 
@@ -95,7 +96,7 @@ def _powers(omega: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.stack([np.ones_like(omega), omega, omega * omega])
 
 
-def _solved(normal: NDArray[np.float32], right: NDArray[np.float32]) -> Shift:
+def _solved(normal: NDArray[np.floating[Any]], right: NDArray[np.floating[Any]]) -> Shift:
     """Slopes of a plane through the origin, from moments indexed by powers of omega.
 
     Zero where the coefficients do not determine both.
