@@ -21,7 +21,9 @@ Slices = tuple[slice, slice]
 EDGE = 0.36  # cycles/px, the highest frequency kept along either axis
 LONGEST = 320  # px per side of a crop; shading, not the number of pixels, limits beyond it
 HARMONICS = 80  # kept along an axis, at most
-SMALL = 80  # px; below it rim and noise weigh more than the last bit of accuracy
+SMALL = 80  # px; a smaller crop cannot afford to lose its rim to the taper
+SEARCH_BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass of the search
+FIT_BAND = 0.3  # cycles/px, the same of the sub-pixel fit
 SECTORS = 8
 
 
@@ -34,11 +36,14 @@ class Band(NamedTuple):
         Angular frequencies, radians/px; along the rows ascending, along the columns from 0.
     bank : (sectors, r, c) float32
         Low-pass of each angular sector, all together of unit sum.
+    sharper : (r, c) float32
+        What turns the search's low-pass into the fit's.
     """
 
     omega_rows: NDArray[np.float32]
     omega_cols: NDArray[np.float32]
     bank: NDArray[np.float32]
+    sharper: NDArray[np.float32]
 
 
 class Overlap(NamedTuple):
@@ -82,11 +87,6 @@ def overlap_of(pair: Pair, shift: NDArray[np.float64]) -> Overlap | None:
     return Overlap(sp.whitened(product), band, np.array(whole) - pair.offset)
 
 
-def _band_and_taper(shape: tuple[int, int]) -> tuple[float, sp.Taper]:
-    """Standard deviation of the Gaussian low-pass, cycles/px, and the taper."""
-    return (0.2, ("tukey", 0.25)) if min(shape) < SMALL else (0.3, ("tukey", 0.5))
-
-
 def _low_pass(images: NDArray[np.float32]) -> sp.Spectrum:
     """Spectra (2, r, c) of two images up to ``EDGE``, rows in ascending frequency."""
     rows, cols = images.shape[1:]
@@ -108,13 +108,14 @@ def band_of(shape: tuple[int, int]) -> Band:
     rows = np.arange(-_edge(shape[0]), _edge(shape[0]) + 1)[:, None] / shape[0]
     cols = np.arange(_edge(shape[1]) + 1)[None, :] / shape[1]
     squared = rows**2 + cols**2
-    weight = np.exp(-0.5 * squared / _band_and_taper(shape)[0] ** 2) * ((cols > 0) | (rows > 0))
+    weight = np.exp(-0.5 * squared / SEARCH_BAND**2) * ((cols > 0) | (rows > 0))
     weight[squared > EDGE**2] = 0.0
     weight /= weight.sum()
     which = sector_of(rows, cols)
     bank = (which == np.arange(SECTORS)[:, None, None]) * weight
     omega = [(2 * np.pi * f.ravel()).astype(np.float32) for f in (rows, cols)]
-    return Band(omega[0], omega[1], bank.astype(np.float32))
+    sharper = np.exp(-0.5 * squared * (FIT_BAND**-2 - SEARCH_BAND**-2))
+    return Band(omega[0], omega[1], bank.astype(np.float32), sharper.astype(np.float32))
 
 
 def sector_of(rows: NDArray[np.float64], cols: NDArray[np.float64]) -> NDArray[np.intp]:
@@ -142,7 +143,7 @@ def _stacked(pair: Pair, one: Slices, other: Slices) -> NDArray[np.float32]:
     rows, cols = one
     shape = (rows.stop - rows.start, cols.stop - cols.start)
     both = np.empty((2, *shape), np.float32)
-    weight = sp.taper(shape, _band_and_taper(shape)[1])
+    weight = sp.taper(shape, ("tukey", 0.25 if min(shape) < SMALL else 0.5))
     weight = weight * _valid(pair.reference, one) * _valid(pair.moving, other)
     for out, window, cut in zip(both, (pair.reference, pair.moving), (one, other), strict=True):
         image = window.values[cut]

@@ -17,7 +17,8 @@ from pcnav_study.matching.subpixel import ESTIMATORS
 from pcnav_study.matching.surface import quadratic_peak
 
 DEFAULT = "plane-fit"
-PREFERENCE = 0.3  # share of a negative sector's energy that is left out
+PREFERENCE = 0.3  # share of a negative sector's energy left out in windows above
+LARGE = 96  # px; smaller ones have too few coefficients to bear it
 
 
 def refined(
@@ -30,19 +31,23 @@ def refined(
     overlap = overlap_of(pair, shift)
     if overlap is None:
         return shift, 0.0
-    residual, sectors = summit(overlap, around)
+    preference = preference_of(pair)
+    residual, sectors = summit(overlap, around, preference)
     if np.abs(residual).max() > 1.5:
         moved = overlap_of(pair, overlap.whole + residual)
         if moved is not None:
             overlap = moved
-            residual, sectors = summit(overlap, 1)
+            residual, sectors = summit(overlap, 1, preference)
     bank = overlap.band.bank
     signed = (np.sign(sectors) @ bank.reshape(len(bank), -1)).reshape(bank.shape[1:])
+    signed *= overlap.band.sharper
     residual = ESTIMATORS[pair.subpixel or DEFAULT](overlap, signed, residual)
     return overlap.whole + residual, delta_quality(overlap, residual)
 
 
-def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+def summit(
+    overlap: Overlap, around: int, preference: float
+) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
     """The highest sector energy within ``around`` px.
 
     Returns
@@ -56,16 +61,24 @@ def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[
         for omega in overlap.band[:2]
     )
     surfaces = np.matmul(np.matmul(rows, overlap.band.bank * overlap.phasors), cols.T).real
-    total = energy(surfaces)
+    total = energy(surfaces, preference)
     row, col = divmod(int(total.argmax()), total.shape[1])
     residual = np.array([row - around, col - around]) + quadratic_peak(total, (row, col))
     return residual, surfaces[:, row, col]
 
 
-def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Sum of the squared surfaces (sectors, rows, columns), a little less of the negative."""
+def preference_of(pair: Pair) -> float:
+    """How much more a positive sector's surface counts, relative to its modulus."""
+    return PREFERENCE / (2 - PREFERENCE) if min(pair.moving.shape) >= LARGE else 0.0
+
+
+def energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
+    """Sum of the squared surfaces (sectors, rows, columns), a little less of the negative.
+
+    Most pairs meet under suns that flip no sector, or few: it breaks ties, no more.
+    """
     squares = np.abs(surfaces)
-    squares += np.float32(PREFERENCE / (2 - PREFERENCE)) * surfaces
+    squares += np.float32(preference) * surfaces
     squares *= squares
     total: NDArray[np.float32] = squares.sum(axis=0)
     return total

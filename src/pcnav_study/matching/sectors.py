@@ -23,7 +23,7 @@ from pcnav_study.matching.orientation import orientation_spectrum
 from pcnav_study.matching.overlap import SECTORS, sector_of
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
-from pcnav_study.matching.refine import energy, refined
+from pcnav_study.matching.refine import energy, preference_of, refined
 from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
@@ -64,7 +64,7 @@ def score_surface(pair: Pair) -> Surface:
     search = Search.of(pair, step_of(pair.reference.shape))
     spectra = sector_spectra(pair, search)
     surfaces = sp.part_of_surface(spectra, search.shape[1] // search.step, search.size)
-    score = _in_scatter(energy(surfaces[:-1]))
+    score = _in_scatter(energy(surfaces[:-1], preference_of(pair)))
     score += np.float32(ORIENTATION) * _in_scatter(surfaces[-1])
     return search.surface(pair, score)
 
