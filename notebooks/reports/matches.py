@@ -14,7 +14,7 @@
 # # UAV frames on a map under another sun
 #
 # Each frame was rendered by a pinhole camera over real relief, rectified around the position the
-# UAV believed in, and sought on a satellite image taken in the morning. Three matchers, the same
+# UAV believed in, and sought on a satellite image taken in the morning. Four matchers, the same
 # pairs, every result shown.
 
 # %% tags=["parameters"]
@@ -29,10 +29,10 @@ from pcnav_study.notebook import open_catalog
 
 catalog = open_catalog(env=env, versions=versions)
 summary = catalog.load("match_summary")
-methods = list(summary["method"].unique())
-tables = {name: catalog.load(f"{name}.quality_table") for name in methods}
+methods = {name: name.replace("-", "_") for name in summary["method"].unique()}
+tables = {name: catalog.load(f"{space}.quality_table") for name, space in methods.items()}
 pairs = catalog.load("window_pairs")
-surfaces = {name: catalog.load(f"{name}.surfaces") for name in methods}
+surfaces = {name: catalog.load(f"{space}.surfaces") for name, space in methods.items()}
 tolerance = summary["tolerance_px"].iloc[0]
 dy, dx = pairs.attrs["pixel_m"]
 
@@ -52,7 +52,7 @@ success_by_sun(summary, tolerance)
 
 # %%
 lines = []
-for name, rows in summary.groupby("method"):
+for name, rows in summary.groupby("method", sort=False):
     short = rows.loc[rows["success_high"] < 0.95, "sun_difference_deg"]
     share = (rows["success"] * rows["n"]).sum() / rows["n"].sum()
     where = ", ".join(f"{angle:.0f}°" for angle in short) or "no sun difference flown"
@@ -110,6 +110,6 @@ match_pictures(pairs, surfaces, order[len(order) // 2], dy / dx)
 match_pictures(pairs, surfaces, order[-1], dy / dx)
 
 # %% [markdown]
-# > The paper calls phase correlation illumination-invariant. What is shown here is its plain,
-# > signed form on shading-dominated ground, with our reconstruction of the experiment: read it
-# > together with the tolerance and the ground's reflectance above.
+# > **[seed]** The paper calls phase correlation illumination-invariant. In its plain, signed form it
+# > is not, on shading-dominated ground and within the tolerance above. **[ours]** Counting the energy
+# > of angular sectors whatever their sign (`pc-sectors`) is what makes it so.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import click
@@ -13,12 +14,18 @@ from kedro.validation.exceptions import ParameterValidationError
 from pcnav_study.errors import InputError
 
 PLAIN = (InputError, ParameterValidationError)
+_FAULT = re.compile(
+    r"^- Parameter '([^']+)': Failed to instantiate .*? for parameter '[^']+': (.*)$", re.M
+)
 
 
 def _plain_reason(error: BaseException | None) -> str | None:
     """The message of the first plain error on the chain of causes."""
     while error is not None:
-        if isinstance(error, PLAIN):
+        if isinstance(error, ParameterValidationError):
+            faults = _FAULT.findall(str(error))
+            return "; ".join(f"parameter {key}.{fault}" for key, fault in faults) or str(error)
+        if isinstance(error, InputError):
             return str(error)
         error = error.__cause__ or error.__context__
     return None

@@ -82,7 +82,7 @@ def test_good_frames_are_placed_and_bad_ones_say_why(finished, folder):
 @pytest.mark.parametrize(
     ("params", "says"),
     [
-        ("flight.method=guess", "flight.method 'guess' is unknown"),
+        ("flight.method=guess", "parameter flight.method = 'guess': method 'guess' is unknown"),
         ("flight.reference=missing.tif", "map missing.tif cannot be opened"),
         ("flight.largest_patch_px=tiny", "largest_patch_px"),
     ],

@@ -1,12 +1,18 @@
 """Interactive Plotly figures, built from datasets; they draw and measure nothing."""
 
+from pcnav_study.figures.light import light_maps, sweep_curves
 from pcnav_study.figures.matches import error_by_sun, match_pictures, success_by_sun
+from pcnav_study.figures.phase import peak_by_azimuth, signs_and_surface
 from pcnav_study.figures.terrain import image_row, slope_aspect_surface
 
 __all__ = [
     "error_by_sun",
     "image_row",
+    "light_maps",
     "match_pictures",
+    "peak_by_azimuth",
+    "signs_and_surface",
     "slope_aspect_surface",
     "success_by_sun",
+    "sweep_curves",
 ]

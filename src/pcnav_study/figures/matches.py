@@ -16,7 +16,7 @@ from pcnav_study.figures.style import COLOUR, NAME, styled
 def success_by_sun(summary: pd.DataFrame, tolerance_px: float) -> go.Figure:
     """Share of correct matches over the sun's azimuth difference, with 95 % intervals."""
     figure = go.Figure()
-    for k, (method, rows) in enumerate(summary.groupby("method")):
+    for k, (method, rows) in enumerate(summary.groupby("method", sort=False)):
         name = str(method)
         figure.add_scatter(
             x=rows["sun_difference_deg"] + 0.8 * k,

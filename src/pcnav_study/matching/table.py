@@ -45,6 +45,7 @@ def match_pairs(
             method,
             sun=(map_sun, sun),
             max_shift=max_shift,
+            pixel_size=(dy, dx),
         )
         error = found.shift - [float(pair["true_row"]), float(pair["true_col"])]
         surfaces.append(found.surface)
@@ -62,7 +63,7 @@ def match_pairs(
         )
     first = max(surfaces, key=lambda surface: surface.values.size)
     shifts = {
-        name: first.origin[axis] + np.arange(first.values.shape[axis])
+        name: first.origin[axis] + first.step * np.arange(first.values.shape[axis])
         for axis, name in enumerate(("row", "col"))
     }
     stack = np.stack([np.broadcast_to(s.values, first.values.shape) for s in surfaces])

@@ -2,15 +2,39 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+
+from pcnav_study.matching import METHODS
+
+
+def _known(method: str) -> str:
+    if method not in METHODS:
+        raise ValueError(f"method {method!r} is unknown; use one of {', '.join(METHODS)}")
+    return method
+
+
+Method = Annotated[str, AfterValidator(_known)]
 
 
 class Parameters(BaseModel):
     """No unknown keys: a misspelt one is an error, not a silent default."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @classmethod
+    def model_validate(cls, obj: Any, **options: Any) -> Self:
+        """As pydantic's, with each fault as ``key = value: what is wrong``."""
+        try:
+            return super().model_validate(obj, **options)
+        except ValidationError as error:
+            faults = [
+                f"{'.'.join(map(str, f['loc']))} = {f['input']!r}: "
+                + f["msg"].removeprefix("Value error, ")
+                for f in error.errors()
+            ]
+            raise ValueError("; ".join(faults)) from None
 
 
 class Ingest(Parameters):
@@ -60,7 +84,7 @@ class Rectify(Parameters):
 class Matcher(Parameters):
     """One matcher."""
 
-    method: str
+    method: Method
     max_shift_px: float | None = Field(default=None, gt=0)
 
 
@@ -78,9 +102,43 @@ class Flight(Parameters):
     folder: str | None
     reference: str | None
     dem: str | None
-    method: str
+    method: Method
     prior_error_m: float | None = Field(gt=0)
     prior_offset_m: float = Field(ge=0)
     seed: int
     largest_patch_px: int = Field(ge=32)
     false_match_rate: float = Field(gt=0, lt=1)
+
+
+class LightGrid(Parameters):
+    """Suns of the light experiment, degrees."""
+
+    azimuth_differences: list[float] = Field(min_length=1)
+    reference_zenith: float = Field(ge=0, lt=90)
+    moving_zeniths: list[float] = Field(min_length=1)
+
+
+class Sweeps(Parameters):
+    """What gets worse, step by step, at which azimuth differences."""
+
+    azimuth_differences: list[float] = Field(min_length=1)
+    albedo_contrast: float = Field(ge=0, lt=1)
+    values: dict[str, list[float]]
+
+
+class Light(Parameters):
+    """The experiment on matching under changing light."""
+
+    sites: list[Literal["map", "fractal"]] = Field(min_length=1)
+    methods: list[Method] = Field(min_length=1)
+    window_px: int = Field(ge=16)
+    trials: int = Field(ge=1)
+    tolerance_px: float = Field(gt=0)
+    noise: float = Field(ge=0)
+    albedo_contrast: float = Field(ge=0, lt=1)
+    shadows: bool
+    seed: int
+    jobs: int
+    backend: str
+    grid: LightGrid
+    sweeps: Sweeps

@@ -4,7 +4,7 @@ from kedro.pipeline import Node, Pipeline
 
 from pcnav_study.pipelines.match.nodes import match_windows
 
-NAMESPACES = ("pc", "ncc", "mi")
+NAMESPACES = ("pc_sectors", "pc", "ncc", "mi")
 
 
 def create_pipeline() -> Pipeline:

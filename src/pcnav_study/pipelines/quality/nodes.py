@@ -22,7 +22,7 @@ def assess_matches(match_table: pd.DataFrame, quality: Quality) -> pd.DataFrame:
 def summarise_matches(quality: Quality, *tables: pd.DataFrame) -> pd.DataFrame:
     """All methods side by side, by sun difference."""
     summary = summarise(tables, bin_deg=quality.sun_bin_deg)
-    for method, rows in summary.groupby("method"):
+    for method, rows in summary.groupby("method", sort=False):
         share = (rows["success"] * rows["n"]).sum() / rows["n"].sum()
         logger.info(
             "%s places %.0f %% of the frames within %g px",

@@ -10,6 +10,7 @@ from pcnav_study.pipelines.reporting.nodes import build_site, render_page, run_n
 # Shelf, notebook, and the datasets it reads.
 NOTEBOOKS = (
     ("walkthroughs", "image_formation", ("elevation", "suns")),
+    ("walkthroughs", "phase_correlation", ("elevation",)),
     (
         "reports",
         "matches",
@@ -20,6 +21,7 @@ NOTEBOOKS = (
             *(f"{n}.surfaces" for n in NAMESPACES),
         ),
     ),
+    ("reports", "changing_light", ("light_table", "sweep_table", "break_points")),
 )
 
 

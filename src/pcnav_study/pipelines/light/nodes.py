@@ -1,0 +1,64 @@
+"""Nodes of the light pipeline."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from joblib import Parallel, delayed
+
+from pcnav_study.experiments import Cell, Task, break_points, judge, light_grid, sweep
+from pcnav_study.pipelines.parameters import Light
+from pcnav_study.progress import progress
+from pcnav_study.scene import Grid, fractal_relief
+from pcnav_study.scene.trials import Site
+
+logger = logging.getLogger(__name__)
+
+
+def run_light_grid(elevation: xr.DataArray, light: Light) -> pd.DataFrame:
+    """Every method at every azimuth difference and zenith."""
+    grid = light.grid
+    cells = light_grid(
+        light.sites, light.window_px, grid.azimuth_differences, grid.reference_zenith,
+        grid.moving_zeniths, noise=light.noise, albedo_contrast=light.albedo_contrast,
+        shadows=light.shadows,
+    )  # fmt: skip
+    return _judged(elevation, light, cells, "changing the light")
+
+
+def run_sweeps(elevation: xr.DataArray, light: Light) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Every method while one thing after another gets worse, and where it breaks."""
+    cells = sweep(
+        light.sites, light.window_px, light.sweeps.azimuth_differences, light.sweeps.values,
+        noise=light.noise, albedo_contrast=light.sweeps.albedo_contrast,
+    )  # fmt: skip
+    table = _judged(elevation, light, cells, "looking for break points")
+    return table, break_points(table)
+
+
+def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str) -> pd.DataFrame:
+    sites: dict[str, Site] = {name: _site(name, elevation, light) for name in light.sites}
+    tasks = [
+        Task(cell, tuple(light.methods), light.trials, light.tolerance_px, light.seed + k)
+        for k, cell in enumerate(cells)
+    ]
+    parallel = Parallel(n_jobs=light.jobs, backend=light.backend, return_as="generator")
+    found = parallel(delayed(judge)(sites[task.cell.site], task) for task in tasks)
+    table = pd.DataFrame([row for rows in progress(found, doing, len(tasks)) for row in rows])
+    logger.info(
+        "Judged %d methods on %d pairs (%s)", len(light.methods), len(tasks) * light.trials, doing
+    )
+    return table
+
+
+def _site(name: str, elevation: xr.DataArray, light: Light) -> Site:
+    if name == "map":
+        relief, pixel_size = elevation.values.astype(np.float64), Grid.of(elevation).pixel_size
+    else:
+        pixel_size = (30.0, 30.0)
+        rng = np.random.default_rng([light.seed, 7])
+        relief = fractal_relief((400, 400), pixel_size, rng)
+    return Site(relief, pixel_size, seed=light.seed)
