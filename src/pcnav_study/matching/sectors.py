@@ -23,7 +23,7 @@ from pcnav_study.matching.orientation import orientation_spectrum
 from pcnav_study.matching.overlap import SECTORS, sector_of
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
-from pcnav_study.matching.refine import energy, preference_of, refined
+from pcnav_study.matching.refine import preference_of, refined
 from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
@@ -67,6 +67,15 @@ def score_surface(pair: Pair) -> Surface:
     score = _in_scatter(energy(surfaces[:-1], preference_of(pair)))
     score += np.float32(ORIENTATION) * _in_scatter(surfaces[-1])
     return search.surface(pair, score)
+
+
+def energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
+    """Sum of the squared surfaces (sectors, rows, columns), a little more of the positive."""
+    modulus = np.abs(surfaces)
+    modulus += np.float32(preference) * surfaces
+    modulus *= modulus
+    total: NDArray[np.float32] = modulus.sum(axis=0)
+    return total
 
 
 def step_of(shape: tuple[int, int]) -> int:
