@@ -119,7 +119,8 @@ def _orientation_product(pair: Pair, search: Search, out: sp.Spectrum) -> None:
 def _in_scatter(surface: NDArray[np.float32]) -> NDArray[np.float32]:
     """The surface in units of its own standard deviation, less its mean."""
     flat = surface.ravel()
-    mean = flat.mean()
-    scatter = float(np.dot(flat, flat)) / flat.size - float(mean) ** 2
-    scaled: NDArray[np.float32] = (surface - mean) / np.float32(max(scatter, 1e-36) ** 0.5)
+    mean = float(np.add.reduce(flat)) / flat.size
+    scatter = float(np.dot(flat, flat)) / flat.size - mean**2
+    scaled: NDArray[np.float32] = surface - np.float32(mean)
+    scaled *= np.float32(max(scatter, 1e-36) ** -0.5)
     return scaled
