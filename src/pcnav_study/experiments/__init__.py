@@ -1,5 +1,17 @@
 """Controlled trials: every method on the same pairs, over everything that may break it."""
 
+from pcnav_study.experiments.benchmark import benchmark
 from pcnav_study.experiments.cells import Cell, Task, break_points, judge, light_grid, sweep
+from pcnav_study.experiments.peers import PEERS, load_peers
 
-__all__ = ["Cell", "Task", "break_points", "judge", "light_grid", "sweep"]
+__all__ = [
+    "PEERS",
+    "Cell",
+    "Task",
+    "benchmark",
+    "break_points",
+    "judge",
+    "light_grid",
+    "load_peers",
+    "sweep",
+]

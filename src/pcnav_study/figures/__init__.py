@@ -3,6 +3,7 @@
 from pcnav_study.figures.light import light_maps, sweep_curves
 from pcnav_study.figures.matches import error_by_sun, match_pictures, success_by_sun
 from pcnav_study.figures.phase import peak_by_azimuth, signs_and_surface
+from pcnav_study.figures.speed import time_bars
 from pcnav_study.figures.terrain import image_row, slope_aspect_surface
 
 __all__ = [
@@ -15,4 +16,5 @@ __all__ = [
     "slope_aspect_surface",
     "success_by_sun",
     "sweep_curves",
+    "time_bars",
 ]
