@@ -1,8 +1,17 @@
 """Controlled trials: every method on the same pairs, over everything that may break it."""
 
 from pcnav_study.experiments.benchmark import benchmark
-from pcnav_study.experiments.cells import Cell, Task, break_points, judge, light_grid, sweep
+from pcnav_study.experiments.cells import (
+    Cell,
+    Task,
+    break_points,
+    judge,
+    light_grid,
+    score,
+    sweep,
+)
 from pcnav_study.experiments.peers import PEERS, load_peers
+from pcnav_study.experiments.real import draw_registered, registered
 
 __all__ = [
     "PEERS",
@@ -10,8 +19,11 @@ __all__ = [
     "Task",
     "benchmark",
     "break_points",
+    "draw_registered",
     "judge",
     "light_grid",
     "load_peers",
+    "registered",
+    "score",
     "sweep",
 ]

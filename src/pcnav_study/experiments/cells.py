@@ -15,7 +15,7 @@ from pcnav_study.errors import InputError
 from pcnav_study.matching import METHODS, match
 from pcnav_study.quality.summary import wilson
 from pcnav_study.scene.sun import SunPosition
-from pcnav_study.scene.trials import Conditions, Site
+from pcnav_study.scene.trials import Conditions, Site, Trials
 
 BASE_AZIMUTH = 100.0  # of the reference sun, degrees
 SWEPT = ("noise", "size", "rotation", "scale", "relief_displacement", "albedo_change")
@@ -111,15 +111,20 @@ def judge(site: Site, task: Task) -> list[dict[str, Any]]:
     }
     rows = []
     for method in task.methods:
-        errors = [
-            np.hypot(*(match(reference, moving, method, **given).shift - shift))
-            for reference, moving, shift in zip(
-                trials.reference, trials.moving, trials.shift, strict=True
-            )
-        ]
         row = described(cell) | {"method": method, "tolerance_px": task.tolerance_px}
-        rows.append(row | success(np.array(errors), task.tolerance_px))
+        rows.append(row | score(trials, method, task.tolerance_px, **given))
     return rows
+
+
+def score(trials: Trials, method: str, tolerance_px: float, **given: Any) -> dict[str, Any]:
+    """How a method does on trials, as ``success`` counts it; ``given`` goes to ``match``."""
+    errors = [
+        np.hypot(*(match(reference, moving, method, **given).shift - shift))
+        for reference, moving, shift in zip(
+            trials.reference, trials.moving, trials.shift, strict=True
+        )
+    ]
+    return success(np.array(errors), tolerance_px)
 
 
 def described(cell: Cell) -> dict[str, Any]:

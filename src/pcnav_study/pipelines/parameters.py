@@ -157,3 +157,16 @@ class Benchmark(Parameters):
     noise: float = Field(ge=0)
     tolerance_px: float = Field(gt=0)
     seed: int
+
+
+class Pairs(Parameters):
+    """Two real pictures of one place."""
+
+    reference: str | None
+    moving: str | None
+    affine: str | None
+    methods: list[Method] = Field(min_length=1)
+    window_px: int = Field(ge=16)
+    trials: int = Field(ge=1)
+    tolerance_px: float = Field(gt=0)
+    seed: int

@@ -31,9 +31,10 @@ def run_benchmark(relief: xr.DataArray, bench: Benchmark) -> pd.DataFrame:
             bench.sites, size, bench.azimuth_differences, 45.0, [45.0], noise=bench.noise
         )
     ]
+    sites = sites_of(relief, bench.sites, max(bench.window_px), bench.seed)
     with threadpool_limits(1):
         tables = benchmark(
-            sites_of(relief, bench.sites, bench.seed), cells, n=bench.trials, seed=bench.seed,
+            sites, cells, n=bench.trials, seed=bench.seed,
             tolerance_px=bench.tolerance_px, methods=bench.methods, peers=bench.peers,
             roaming_n=bench.roaming_trials,
         )  # fmt: skip

@@ -41,7 +41,7 @@ def run_sweeps(elevation: xr.DataArray, light: Light) -> tuple[pd.DataFrame, pd.
 
 
 def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str) -> pd.DataFrame:
-    sites = sites_of(elevation, light.sites, light.seed)
+    sites = sites_of(elevation, light.sites, light.window_px, light.seed)
     tasks = [
         Task(cell, tuple(light.methods), light.trials, light.tolerance_px, light.seed + k)
         for k, cell in enumerate(cells)
@@ -55,7 +55,9 @@ def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str
     return table
 
 
-def sites_of(elevation: xr.DataArray, names: Sequence[str], seed: int) -> dict[str, Site]:
+def sites_of(
+    elevation: xr.DataArray, names: Sequence[str], window_px: int, seed: int
+) -> dict[str, Site]:
     """Reliefs by name: ``map`` is the ingested one, ``fractal`` a self-affine one."""
     sites = {}
     for name in names:
@@ -63,6 +65,7 @@ def sites_of(elevation: xr.DataArray, names: Sequence[str], seed: int) -> dict[s
             relief, pixel_size = elevation.values.astype(np.float64), Grid.of(elevation).pixel_size
         else:
             pixel_size = (30.0, 30.0)
-            relief = fractal_relief((400, 400), pixel_size, np.random.default_rng([seed, 7]))
+            side = max(400, 3 * window_px // 2)
+            relief = fractal_relief((side, side), pixel_size, np.random.default_rng([seed, 7]))
         sites[name] = Site(relief, pixel_size, seed=seed)
     return sites
