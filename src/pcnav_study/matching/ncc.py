@@ -1,46 +1,76 @@
-"""Normalised cross-correlation of a roaming template, by FFT and running sums [1]_.
+"""Normalised cross-correlation of a roaming template, by FFT and running sums [1]_ [2]_.
 
 References
 ----------
 .. [1] Lewis (1995), Vision Interface 95, 120-123.
+.. [2] Padfield (2012), IEEE Trans. Image Processing 21(5), 2706-2718: with masks.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from scipy import fft
+from numpy.typing import NDArray
 
-from pcnav_study.matching.surface import Surface
-from pcnav_study.matching.windows import Image, template_of
+from pcnav_study.matching.pair import Found, Pair
+from pcnav_study.matching.template import SHARE, Roaming, filled
+
+FLAT = 1e-10  # share of the largest variance below which a placement is constant
 
 
-def normalised_cross_correlation(reference: Image, moving: Image, max_shift: float) -> Surface:
+def normalised_cross_correlation(pair: Pair) -> Found:
     """Correlation coefficient, -1 to 1, of the template at every place in the reference.
 
-    Places where the reference is constant score zero.
+    Places where the reference is constant, or with too few valid pixels, score zero.
     """
-    template, origin = template_of(reference, moving, max_shift)
-    centred = template - template.mean()
-    level = reference - reference.mean()
-    shape = (reference.shape[0], reference.shape[1])
-    spectrum = fft.rfft2(level, shape) * np.conj(fft.rfft2(centred, shape))
-    rows, cols = (r - t + 1 for r, t in zip(reference.shape, template.shape, strict=True))
-    product = fft.irfft2(spectrum, shape)[:rows, :cols]
-    count = template.size
-    variance = (
-        _running_sum(level**2, template.shape) - _running_sum(level, template.shape) ** 2 / count
-    )
-    energy = variance * (centred**2).sum()
-    flat = energy <= 1e-12 * max(float(energy.max()), np.finfo(float).tiny)
-    score = np.where(flat, 0.0, product / np.sqrt(np.where(flat, 1.0, energy)))
-    return Surface(np.clip(score, -1.0, 1.0), origin)
+    roaming = Roaming(pair)
+    values = _masked(roaming) if roaming.masked else _unmasked(roaming)
+    return Found(roaming.surface(values))
 
 
-def _running_sum(image: Image, shape: tuple[int, ...]) -> Image:
-    """Sums over every window of ``shape`` that fits."""
-    total = np.pad(image.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
-    rows, cols = shape
-    summed: Image = (
-        total[rows:, cols:] - total[:-rows, cols:] - total[rows:, :-cols] + total[:-rows, :-cols]
-    )
-    return summed
+def _unmasked(roaming: Roaming) -> NDArray[Any]:
+    reference = roaming.pair.reference
+    spectrum, inverse = reference.kept(("ncc", roaming.shape), lambda: _reference_part(roaming))
+    template = roaming.pair.moving.centred()[roaming.cut]
+    template = template - template.mean()
+    energy = float(np.vdot(template, template))
+    if energy == 0:
+        return np.zeros(roaming.size)
+    score = roaming.correlated(spectrum, roaming.forward(template))
+    score = score * inverse
+    score *= np.float32(energy**-0.5)
+    return np.clip(score, -1.0, 1.0, out=score)
+
+
+def _reference_part(roaming: Roaming) -> tuple[NDArray[Any], NDArray[np.float32]]:
+    """Spectrum, and one over the standard deviation's share of every placement's norm."""
+    centred = roaming.pair.reference.centred()
+    level = centred.astype(np.float64)
+    count = roaming.shape[0] * roaming.shape[1]
+    variance = roaming.running_sum(level**2) - roaming.running_sum(level) ** 2 / count
+    flat = variance <= FLAT * max(float(variance.max()), 1e-300)
+    inverse = np.where(flat, 0.0, 1 / np.sqrt(np.where(flat, 1.0, variance)))
+    return roaming.forward(centred), inverse.astype(np.float32)
+
+
+def _masked(roaming: Roaming) -> NDArray[np.float64]:
+    """The same over the pixels valid in both [2]_."""
+    image, here = filled(roaming.pair.reference)
+    template, there = filled(roaming.pair.moving, roaming.cut)
+    ours = roaming.forward(np.stack([image, image**2, here]))
+    theirs = roaming.forward(np.stack([template, template**2, there]))
+
+    def total(one: int, other: int) -> NDArray[np.float64]:
+        return np.asarray(roaming.correlated(ours[one], theirs[other]))
+
+    count = np.rint(total(2, 2))
+    usable = count >= max(SHARE * float(count.max()), 2)
+    n = np.where(usable, count, 1.0)
+    sum_one, sum_other = total(0, 2), total(2, 0)
+    covariance = total(0, 0) - sum_one * sum_other / n
+    variances = (total(1, 2) - sum_one**2 / n, total(2, 1) - sum_other**2 / n)
+    for variance in variances:
+        usable &= variance > FLAT * max(float(variance[usable].max(initial=0.0)), 1e-300)
+    norm = np.sqrt(np.where(usable, variances[0] * variances[1], 1.0))
+    return np.asarray(np.where(usable, np.clip(covariance / norm, -1.0, 1.0), 0.0))

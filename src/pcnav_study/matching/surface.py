@@ -3,40 +3,79 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pcnav_study.matching.subpixel import quadratic_peak
 
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Surface:
-    """Scores of candidate shifts one pixel apart; the larger, the better.
+    """Scores of candidate shifts ``step`` px apart; the larger, the better.
 
-    Parameters
+    Attributes
     ----------
     values : (rows, columns) float
-        Score of the shift ``origin + (row, column)``.
+        Score of the shift ``origin + step * (row, column)``; finite.
     origin : (row, column)
         Shift in px of ``values[0, 0]``.
+    step : int
+        Distance of neighbouring candidates, px.
     """
 
-    values: NDArray[np.float64]
+    values: NDArray[np.floating[Any]]
     origin: tuple[float, float]
+    step: int = 1
 
     def peak(self) -> tuple[int, int]:
-        """Index of the best whole-pixel candidate."""
-        row, col = np.unravel_index(np.argmax(self.values), self.values.shape)
-        return int(row), int(col)
+        """Index of the best candidate."""
+        row, col = divmod(int(self.values.argmax()), self.values.shape[1])
+        return row, col
+
+    def peaks(self, count: int) -> list[tuple[int, int]]:
+        """Indices of the best candidates, best first, at least 3 apart along an axis."""
+        if count == 1:
+            return [self.peak()]
+        left, found = self.values.copy(), []
+        for _ in range(min(count, left.size)):
+            row, col = divmod(int(left.argmax()), left.shape[1])
+            found.append((row, col))
+            left[max(row - 2, 0) : row + 3, max(col - 2, 0) : col + 3] = -np.inf
+        return found
 
     def best_shift(self) -> NDArray[np.float64]:
         """Shift of the peak in px, refined by a quadratic through its neighbours."""
-        peak = self.peak()
-        return np.asarray(self.origin) + peak + quadratic_peak(self.values, peak)
+        row, col = self.peak()
+        off_row, off_col = quadratic_peak(self.values, (row, col))
+        top, left = self.origin
+        return np.array([top + self.step * (row + off_row), left + self.step * (col + off_col)])
 
-    def at(self, shift: NDArray[np.floating]) -> tuple[int, int]:
+    def at(self, shift: NDArray[np.floating[Any]]) -> tuple[int, int]:
         """Index of the candidate nearest to a shift, clipped to the surface."""
-        index = np.rint(np.asarray(shift) - self.origin).astype(int)
+        index = np.rint((np.asarray(shift) - self.origin) / self.step).astype(int)
         row, col = np.clip(index, 0, np.array(self.values.shape) - 1)
         return int(row), int(col)
+
+
+def quadratic_peak(values: NDArray[np.floating[Any]], peak: tuple[int, int]) -> tuple[float, float]:
+    """Offset (row, column) of the summit of a quadratic through the 3 x 3 neighbourhood.
+
+    All six coefficients are fitted by least squares: a separable parabola ignores the
+    cross term of a diagonal ridge. At the border, or where the neighbourhood is no summit,
+    the offset is zero; it never exceeds one candidate.
+    """
+    row, col = peak
+    rows, cols = values.shape
+    if not (0 < row < rows - 1 and 0 < col < cols - 1):
+        return 0.0, 0.0
+    (a, b, c), (d, e, f), (g, h, i) = values[row - 1 : row + 2, col - 1 : col + 2].tolist()
+    grad_row, grad_col = (g + h + i - a - b - c) / 6, (c + f + i - a - d - g) / 6
+    curve_row = (a + b + c + g + h + i - 2 * (d + e + f)) / 3
+    curve_col = (a + d + g + c + f + i - 2 * (b + e + h)) / 3
+    cross = (i - g - c + a) / 4
+    determinant = curve_row * curve_col - cross * cross
+    if determinant <= 0 or curve_row >= 0:
+        return 0.0, 0.0
+    off_row = (cross * grad_col - curve_col * grad_row) / determinant
+    off_col = (cross * grad_row - curve_row * grad_col) / determinant
+    return min(max(off_row, -1.0), 1.0), min(max(off_col, -1.0), 1.0)

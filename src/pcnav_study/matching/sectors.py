@@ -1,0 +1,116 @@
+"""Sector energy: phase correlation that no sun can break.
+
+Between two suns the cross-power spectrum of a shaded relief keeps its fringes and flips
+its sign in whole angular sectors (`phase`). Cut it into sectors, transform each, and add
+the squared surfaces: every sector peaks at the same shift, whatever its sign. Nothing
+about the suns is needed. A small preference for positive sectors breaks ties, and the
+correlation of doubled gradient orientation is added for ground where edges say more
+than shading does. Each of the two surfaces counts in units of its own scatter.
+
+The search runs on a grid as coarse as the low-pass allows. At its peak each sector's
+sign is read, the spectrum of the overlap is repaired, and its phase plane fitted.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pcnav_study.matching import spectrum as sp
+from pcnav_study.matching.orientation import orientation_spectrum
+from pcnav_study.matching.overlap import SECTORS, sector_of
+from pcnav_study.matching.pair import Found, Pair
+from pcnav_study.matching.phase import Search, cross_power
+from pcnav_study.matching.refine import energy, preference_of, refined
+from pcnav_study.matching.surface import Surface
+from pcnav_study.matching.windows import Window
+
+BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass
+ORIENTATION = 1.5  # weight of the orientation surface
+NEARBY = 3  # px
+TAPER = ("tukey", 0.25)
+
+
+def sector_phase_correlation(pair: Pair) -> Found:
+    """The default method: sector energy, then signs, repair and a sub-pixel estimate.
+
+    Small windows try several peaks. The last search, pixel by pixel, is by sector energy
+    alone: near the true shift gradients turn with the sun, so that their correlation peaks
+    some 2 px off it.
+    """
+    score = score_surface(pair)
+    contenders = 4 if min(pair.moving.shape) < 48 else 1
+    answers = [
+        refined(pair, np.array(score.origin) + score.step * np.array(peak), NEARBY + score.step - 1)
+        for peak in score.peaks(contenders)
+    ]
+    shift, quality = max(answers, key=lambda answer: answer[1])
+    return Found(score, shift, quality)
+
+
+def sector_spectra(pair: Pair, search: Search) -> sp.Spectrum:
+    """Cross-power spectrum of each sector, and last the orientation's, (SECTORS + 1, ...)."""
+    product = cross_power(pair, search, TAPER)
+    stack = np.empty((SECTORS + 1, *product.shape), np.complex64)
+    np.multiply(product, sector_bank(search.shape, search.step), out=stack[:-1])
+    _orientation_product(pair, search, out=stack[-1])
+    return stack
+
+
+def score_surface(pair: Pair) -> Surface:
+    """Sector energy plus orientation correlation of every candidate shift."""
+    search = Search.of(pair, step_of(pair.reference.shape))
+    spectra = sector_spectra(pair, search)
+    surfaces = sp.part_of_surface(spectra, search.shape[1] // search.step, search.size)
+    score = _in_scatter(energy(surfaces[:-1], preference_of(pair)))
+    score += np.float32(ORIENTATION) * _in_scatter(surfaces[-1])
+    return search.surface(pair, score)
+
+
+def step_of(shape: tuple[int, int]) -> int:
+    """Spacing of the search grid, px: small windows need their whole band."""
+    side = min(shape)
+    return 1 if side < 96 else 2 if side < 384 else 4
+
+
+@lru_cache(maxsize=64)
+def sector_bank(shape: tuple[int, int], step: int) -> NDArray[np.float32]:
+    """Low-passed indicator of each angular sector, (SECTORS, rows, columns)."""
+    f_rows, f_cols = sp.frequencies(shape, step)
+    squared = f_rows**2 + f_cols**2
+    weight = np.exp(-0.5 * squared / BAND**2) * (squared > 0)
+    if step > 1:
+        weight *= (f_rows > -0.5 / step) & (f_cols < 0.5 / step)
+    bank: NDArray[np.float32] = (
+        (sector_of(f_rows, f_cols) == np.arange(SECTORS)[:, None, None]) * weight
+    ).astype(np.float32)
+    bank.flags.writeable = False
+    return bank
+
+
+def _orientation_product(pair: Pair, search: Search, out: sp.Spectrum) -> None:
+    shape, step, start, _ = search
+
+    def delayed(window: Window) -> sp.Spectrum:
+        plain = orientation_spectrum(window, shape, step)
+        return sp.delayed(plain, shape, step, np.array(start))
+
+    def conjugate(window: Window) -> sp.Spectrum:
+        plain = orientation_spectrum(window, shape, step)
+        return np.conj(plain, out=plain)
+
+    one = pair.reference.kept(("orientation", shape, step, start), lambda: delayed(pair.reference))
+    other = pair.moving.kept(("orientation*", shape, step), lambda: conjugate(pair.moving))
+    np.multiply(one[0], other[0], out=out)
+    out += one[1] * other[1]
+
+
+def _in_scatter(surface: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The surface in units of its own standard deviation, less its mean."""
+    flat = surface.ravel()
+    mean = flat.mean()
+    scatter = float(np.dot(flat, flat)) / flat.size - float(mean) ** 2
+    scaled: NDArray[np.float32] = (surface - mean) / np.float32(max(scatter, 1e-36) ** 0.5)
+    return scaled
