@@ -82,7 +82,7 @@ def test_a_list_is_no_camera(tmp_path):
 
 
 def test_a_camera_that_is_no_pinhole_is_refused_by_its_type(tmp_path):
-    with pytest.raises(InputError, match=r"fisheye.*only pinhole"):
+    with pytest.raises(InputError, match=r"fisheye.*use pinhole or brown"):
         camera_from_file(written(tmp_path, GOOD | {"type": "fisheye"}))
 
 

@@ -1,13 +1,22 @@
 """From a match to a position."""
 
+from pcnav_study.navigation.agreement import agreement
+from pcnav_study.navigation.calibration import Installation, cross_validated, fit
 from pcnav_study.navigation.flight_table import flight_table, localise_flight
-from pcnav_study.navigation.localise import Fix, FlightSettings, Site, localise_frame, located
+from pcnav_study.navigation.footprints import footprint_collection
+from pcnav_study.navigation.localise import Fix, FlightSettings, localise_frame, located
+from pcnav_study.navigation.site import Site
 
 __all__ = [
     "Fix",
     "FlightSettings",
+    "Installation",
     "Site",
+    "agreement",
+    "cross_validated",
+    "fit",
     "flight_table",
+    "footprint_collection",
     "localise_flight",
     "localise_frame",
     "located",

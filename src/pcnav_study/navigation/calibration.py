@@ -1,0 +1,172 @@
+"""Constants of an installation: where the camera looks, and where the map lies.
+
+A camera that looks ahead, and a map that lies a few metres off, shift every position found
+by the same amounts: the one turns with the aircraft, the other does not. Both are
+estimated from frames whose position is known, robustly, and taken off the others [ours].
+
+    found - recorded = heading (look_along, look_across) + (bias_east, bias_north)
+
+Frames flown in one direction cannot tell the two apart; then all of it is called map bias,
+which serves that direction.
+
+References
+----------
+.. [1] Huber and Ronchetti (2009), Robust Statistics, section 7.8: iterated weights.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pcnav_study.errors import InputError
+
+Array = NDArray[np.float64]
+FOLDS = 5
+LEAST_FRAMES = 4  # to fit four constants with a frame or two to spare
+SAME_DIRECTION = 0.97  # length of the mean heading vector: within some 14 deg
+MAD_TO_SIGMA = 1.4826
+KEPT_SIGMAS = 3.0
+SMALLEST_SIGMA_M = 0.05
+
+
+@dataclass(frozen=True)
+class Installation:
+    """Metres that found positions lie off: along and across the heading, east and north.
+
+    ``frames`` is how many they were estimated from, ``scatter_m`` the normalised median
+    absolute deviation, per axis, of what they leave.
+    """
+
+    look_along_m: float = 0.0
+    look_across_m: float = 0.0
+    bias_east_m: float = 0.0
+    bias_north_m: float = 0.0
+    frames: int = 0
+    scatter_m: float = 0.0
+
+    def offsets(self, heading: ArrayLike) -> Array:
+        """(n, 2) metres, east and north, that positions found at these headings lie off."""
+        constants = [self.look_along_m, self.look_across_m, self.bias_east_m, self.bias_north_m]
+        return np.asarray(_design(np.asarray(heading, float)) @ constants)
+
+    @property
+    def bias(self) -> Array:
+        """(east, north) metres that the map lies off."""
+        return np.array([self.bias_east_m, self.bias_north_m])
+
+    @classmethod
+    def read(cls, path: str | Path) -> Installation:
+        """From a JSON file as the dataset ``flight_calibration`` has it.
+
+        Raises
+        ------
+        InputError
+            If there is no such file, or it holds something else.
+        """
+        try:
+            known = json.loads(Path(path).read_text())
+            return cls(**{k: v for k, v in known.items() if k in cls.__dataclass_fields__})
+        except OSError as error:
+            raise InputError(
+                f"flight.calibration {path} cannot be opened; give none, cross-validate, or a "
+                "file of constants"
+            ) from error
+        except (ValueError, AttributeError, TypeError) as error:
+            raise InputError(
+                f"{path} holds no installation constants ({error}); write it as flight_calibration"
+            ) from error
+
+    def as_dict(self) -> dict[str, float]:
+        """For JSON."""
+        return asdict(self)
+
+
+def fit(misfit: ArrayLike, heading: ArrayLike) -> Installation:
+    """Constants from frames of known position.
+
+    Least absolute distances by iterated weights [1]_, then least squares over the frames
+    within three scatters of that.
+
+    Parameters
+    ----------
+    misfit : (n, 2)
+        Found less recorded position, east and north, metres.
+    heading : (n,)
+        Of the image's top, degrees clockwise from north.
+
+    Raises
+    ------
+    InputError
+        If there is no frame to fit.
+    """
+    misfit, heading = np.asarray(misfit, float).reshape(-1, 2), np.asarray(heading, float)
+    if not len(misfit):
+        raise InputError("no frame without alarm to fit the calibration on; use calibration=none")
+    design = _design(heading)
+    if len(misfit) < LEAST_FRAMES or _one_direction(heading):
+        design[..., :2] = 0.0
+    constants = _weighted(design, misfit, np.ones(len(misfit)))
+    for _ in range(50):
+        distance = np.linalg.norm(misfit - design @ constants, axis=1)
+        constants = _weighted(design, misfit, 1 / np.maximum(distance, 1e-3))
+    left = misfit - design @ constants
+    sigma = max(_scatter(left), SMALLEST_SIGMA_M)
+    kept = np.linalg.norm(left, axis=1) <= KEPT_SIGMAS * np.sqrt(2) * sigma
+    constants = _weighted(design, misfit, kept.astype(float))
+    along, across, east, north = constants.tolist()
+    return Installation(
+        along, across, east, north, int(kept.sum()), _scatter((misfit - design @ constants)[kept])
+    )
+
+
+def cross_validated(misfit: ArrayLike, heading: ArrayLike, usable: ArrayLike) -> Array:
+    """(n, 2) metres each frame lies off, by constants fitted without its own fold.
+
+    Every fifth frame is of a fold; of fewer than five frames each is a fold by itself.
+
+    Parameters
+    ----------
+    misfit, heading
+        As for `fit`; NaN where a frame was not placed.
+    usable : (n,) bool
+        Frames to fit on: those without alarm.
+    """
+    misfit, heading = np.asarray(misfit, float), np.asarray(heading, float)
+    usable = np.asarray(usable, bool)
+    fold = np.arange(len(misfit)) % FOLDS
+    offsets = np.zeros_like(misfit)
+    for k in np.unique(fold):
+        own, others = fold == k, (fold != k) & usable
+        offsets[own] = fit(misfit[others], heading[others]).offsets(heading[own])
+    return offsets
+
+
+def _design(heading: Array) -> Array:
+    """(n, 2, 4): offsets east and north by the four constants."""
+    sin, cos = np.sin(np.radians(heading)), np.cos(np.radians(heading))
+    zero, one = np.zeros_like(sin), np.ones_like(sin)
+    rows = [np.stack([sin, cos, one, zero], -1), np.stack([cos, -sin, zero, one], -1)]
+    return np.stack(rows, axis=-2)
+
+
+def _weighted(design: Array, misfit: Array, weight: Array) -> Array:
+    """Weighted least squares, of smallest constants where they cannot be told apart."""
+    root = np.sqrt(weight)[:, None]
+    solved = np.linalg.lstsq(
+        (design * root[..., None]).reshape(-1, 4), (misfit * root).ravel(), rcond=1e-9
+    )
+    return np.asarray(solved[0], float)
+
+
+def _one_direction(heading: Array) -> bool:
+    return bool(np.abs(np.exp(1j * np.radians(heading)).mean()) > SAME_DIRECTION)
+
+
+def _scatter(left: Array) -> float:
+    """Normalised median absolute deviation from zero, of both axes together."""
+    return float(MAD_TO_SIGMA * np.median(np.abs(left))) if left.size else 0.0
