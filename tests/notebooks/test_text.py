@@ -5,14 +5,15 @@ from pathlib import Path
 import jupytext
 import pytest
 
+from pcnav_study.pipelines.flight.pipeline import FLIGHT_NOTEBOOK
 from pcnav_study.pipelines.reporting.pipeline import NOTEBOOKS
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "notebooks").rglob("*.py"))
 
 
-def test_every_notebook_is_run_by_the_reporting_pipeline():
-    listed = {ROOT / "notebooks" / shelf / f"{name}.py" for shelf, name, _ in NOTEBOOKS}
+def test_every_notebook_is_run_by_the_reporting_or_the_flight_pipeline():
+    listed = {ROOT / "notebooks" / shelf / f"{name}.py" for shelf, name, _ in (*NOTEBOOKS, FLIGHT_NOTEBOOK)}
     assert listed == set(SOURCES)
 
 

@@ -54,6 +54,12 @@ class PoseRecord:
                 self.values[name] = value
                 self.sources[name] = source
 
+    def turned(self, degrees: float) -> PoseRecord:
+        """The same record with its heading wrong by that much, clockwise."""
+        signs = {"yaw": 1, "kappa": -1}  # kappa runs the other way
+        values = {k: v + degrees * signs.get(k, 0) for k, v in self.values.items()}
+        return PoseRecord(self.frame, values, self.sources, self.time)
+
     @property
     def has_position(self) -> bool:
         """True if the horizontal position is known."""

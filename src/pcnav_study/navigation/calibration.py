@@ -21,7 +21,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from numpy.typing import ArrayLike, NDArray
+from pyproj import CRS, Transformer
 
 from pcnav_study.errors import InputError
 
@@ -144,6 +146,53 @@ def cross_validated(misfit: ArrayLike, heading: ArrayLike, usable: ArrayLike) ->
         own, others = fold == k, (fold != k) & usable
         offsets[own] = fit(misfit[others], heading[others]).offsets(heading[own])
     return offsets
+
+
+def calibrated(table: pd.DataFrame, choice: str, crs: str) -> tuple[pd.DataFrame, Installation]:
+    """A flight's table with the constants taken off its positions.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As ``flight_table`` gives it.
+    choice : str
+        "none"; "cross-validate": each frame by constants of the other folds, so that
+        ``error_m`` judges no frame by itself; or a file of constants.
+    crs : str
+        Of the table's metres.
+
+    Returns
+    -------
+    table : DataFrame
+        Camera positions less look and bias, picture centres less the bias alone.
+    constants : Installation
+        Those of the file, or those of all frames without alarm, for the next flight.
+    """
+    if choice == "none":
+        return table, Installation()
+    placed = table["easting"].notna().to_numpy()
+    heading = table.loc[placed, "heading_deg"].to_numpy(float)
+    found = table.loc[placed, ["easting", "northing"]].to_numpy(float)
+    recorded = table.loc[placed, ["recorded_easting", "recorded_northing"]].to_numpy(float)
+    if choice == "cross-validate":
+        usable = ~table.loc[placed, "alarm"].to_numpy(bool)
+        constants = fit((found - recorded)[usable], heading[usable])
+        offsets = cross_validated(found - recorded, heading, usable)
+    else:
+        constants = Installation.read(choice)
+        offsets = constants.offsets(heading)
+    moved = found - offsets
+    out = table.copy()
+    out.loc[placed, ["easting", "northing"]] = moved.round(3)
+    out.loc[placed, "error_m"] = np.hypot(*(moved - recorded).T).round(3)
+    out.loc[placed, "calibration"] = choice if choice == "cross-validate" else Path(choice).name
+    for name, bias in zip(("centre_easting", "centre_northing"), constants.bias, strict=True):
+        out.loc[placed, name] = (table.loc[placed, name].astype(float) - bias).round(3)
+    to_degrees = Transformer.from_crs(CRS(crs), 4326, always_xy=True)
+    longitude, latitude = to_degrees.transform(*moved.T)
+    out.loc[placed, "latitude"] = np.round(latitude, 8)
+    out.loc[placed, "longitude"] = np.round(longitude, 8)
+    return out, constants
 
 
 def _design(heading: Array) -> Array:

@@ -7,7 +7,9 @@ it is rectified anew at each position found, until position and rectification ag
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -108,7 +110,6 @@ class Fix:
     fine: Step
     agreement: float
     iterations: int
-    settled: bool
     alarm: bool
     reason: str
 
@@ -166,19 +167,31 @@ def localise_frame(
         With the reason, if the frame cannot be placed.
     """
     camera = site.camera(metadata)
+    return localise_image(site, partial(read_grey, path), camera, record, believed, settings)
+
+
+def localise_image(
+    site: Site,
+    image: NDArray[np.float32] | Callable[[], NDArray[np.float32]],
+    camera: Camera,
+    record: PoseRecord,
+    believed: tuple[float, float],
+    settings: FlightSettings,
+) -> Fix:
+    """The same for a picture (rows, columns) at hand, or a function that reads it."""
     pose, level = site.pose(record, *believed)
     corners = camera.footprint(pose, level)
     pixel, short_side = _fine_pixel(site, camera, corners, settings)
     suns = site.suns(record.time, *believed)
-    image = read_grey(path)
-    view = View(site, image, camera, record, settings)
+    view = View(site, image() if callable(image) else image, camera, record, settings)
     coarse = _search(view, believed, corners, pixel, short_side, suns)
     first = located(believed, coarse.result.shift, coarse.grid.pixel_size)
     reach = max(int(np.ceil(FINE_REACH * short_side / pixel)), 4)
-    position, fine, iterations, settled = _settle(view, first, pixel, reach, suns)
-    agreed = agreement(fine.window, fine.patch, fine.result.shift, settings.method)
+    settled, fine, iterations, ends = _settle(view, first, pixel, reach, suns)
+    parts = agreement(fine.window, fine.patch, fine.result.shift, settings.method)
+    position = located(settled, parts.shift - fine.result.shift, fine.grid.pixel_size)
     pose, level, footprint = view.footprint(position)
-    reason = _reason(coarse, agreed, settled, settings)
+    reason = _reason(coarse, parts.share, ends, settings)
     moved = np.subtract(position, believed) / pixel
     return Fix(
         position=position,
@@ -188,9 +201,8 @@ def localise_frame(
         yaw=pose.heading,
         coarse=coarse,
         fine=fine,
-        agreement=agreed,
+        agreement=parts.share,
         iterations=iterations,
-        settled=settled,
         alarm=bool(reason),
         reason=reason,
     )
@@ -238,8 +250,8 @@ def _settle(
 ) -> tuple[tuple[float, float], Step, int, bool]:
     """Rectify and match in turn until the shift is below a tenth of a pixel.
 
-    Returns the position, the last step, how many there were, and whether they settled
-    within ``reach`` of where they began.
+    Returns the position, the last step, how many there were, and whether they ended
+    within a pixel of each other and not far from where they began.
     """
     start, step = at, None
     for count in range(1, ITERATIONS + 1):
@@ -252,7 +264,7 @@ def _settle(
         if np.hypot(*step.result.shift) < SETTLED_PX:
             return at, step, count, True
     assert step is not None
-    return at, step, ITERATIONS, False
+    return at, step, ITERATIONS, bool(np.hypot(*step.result.shift) < 1)
 
 
 def _reason(coarse: Step, agreed: float, settled: bool, settings: FlightSettings) -> str:

@@ -1,10 +1,42 @@
-"""The flight pipeline."""
+"""Two pipelines on request: a flight with its report, and curves of its robustness."""
+
+from functools import partial, update_wrapper
 
 from kedro.pipeline import Node, Pipeline
 
-from pcnav_study.pipelines.flight.nodes import localise
+from pcnav_study.pipelines.flight.nodes import build_flight_page, localise, measure_robustness
+from pcnav_study.pipelines.reporting.nodes import run_notebook
+
+READS = ("flight_positions", "flight_footprints", "flight_calibration", "flight_pictures")
+FLIGHT_NOTEBOOK = ("reports", "flight", READS)
 
 
 def create_pipeline() -> Pipeline:
-    """Positions of a user's frames."""
-    return Pipeline([Node(localise, "params:flight", "flight_positions", name="localise_flight")])
+    """Positions of a user's frames, and a page that shows them."""
+    execute = update_wrapper(partial(run_notebook, *FLIGHT_NOTEBOOK), run_notebook)
+    return Pipeline(
+        [
+            Node(localise, "params:flight", list(READS), name="localise_flight"),
+            Node(execute, ["run", *READS], "flight_notebook", name="run_flight"),
+            Node(
+                build_flight_page,
+                "flight_notebook",
+                ["flight_page", "flight_plotly_js"],
+                name="render_flight",
+            ),
+        ]
+    )
+
+
+def create_robustness_pipeline() -> Pipeline:
+    """Curves of success and alarm under damage; slow, so only by name."""
+    return Pipeline(
+        [
+            Node(
+                measure_robustness,
+                ["params:flight", "params:flight_robustness"],
+                "flight_robustness",
+                name="measure_flight_robustness",
+            )
+        ]
+    )
