@@ -4,6 +4,7 @@ from pcnav_study.frames.cameras import camera_from_file, camera_from_metadata
 from pcnav_study.frames.folder import FlightFolder
 from pcnav_study.frames.images import read_grey, read_metadata
 from pcnav_study.frames.maps import metric_crs, read_elevation, read_window
+from pcnav_study.frames.occlusion import occluded
 from pcnav_study.frames.pairs import window_pairs
 from pcnav_study.frames.poses import PoseRecord, pose_records
 from pcnav_study.frames.rectify import bounding_grid, central_grid, rectify
@@ -19,6 +20,7 @@ __all__ = [
     "frame_sun",
     "map_sun",
     "metric_crs",
+    "occluded",
     "pose_records",
     "read_elevation",
     "read_grey",

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from pcnav_study.errors import InputError
 from pcnav_study.frames.images import read_grey
 from pcnav_study.frames.maps import read_window
+from pcnav_study.frames.occlusion import occluded
 from pcnav_study.frames.poses import PoseRecord
 from pcnav_study.frames.rectify import bounding_grid, central_grid, rectify
 from pcnav_study.matching import MatchResult, match
@@ -133,7 +134,11 @@ class View:
         """The frame on ``grid`` if the camera is at (east, north)."""
         pose, level = self.site.pose(self.record, *at)
         heights = self.site.ground(grid)
-        return rectify(self.image, self.camera, pose, grid, level if heights is None else heights)
+        if heights is None:
+            return rectify(self.image, self.camera, pose, grid, level)
+        patch = rectify(self.image, self.camera, pose, grid, heights)
+        patch[occluded(heights, grid, pose)] = np.nan
+        return patch
 
     def step(self, at: tuple[float, float], grid: Grid, reach: int, suns: Suns | None) -> Step:
         """Rectify on ``grid`` and match within ``reach`` px."""

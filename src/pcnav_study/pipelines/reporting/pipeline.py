@@ -10,6 +10,7 @@ from pcnav_study.pipelines.reporting.nodes import build_site, render_page, run_n
 # Shelf, notebook, and the datasets it reads.
 NOTEBOOKS = (
     ("walkthroughs", "image_formation", ("elevation", "suns")),
+    ("walkthroughs", "rectification", ("elevation", "suns", "reference_map", "frames")),
     (
         "reports",
         "matches",
