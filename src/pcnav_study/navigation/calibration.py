@@ -88,11 +88,13 @@ class Installation:
         return asdict(self)
 
 
-def fit(misfit: ArrayLike, heading: ArrayLike) -> Installation:
+def fit(
+    misfit: ArrayLike, heading: ArrayLike, trusted: ArrayLike | None = None
+) -> Installation:
     """Constants from frames of known position.
 
-    Least absolute distances by iterated weights [1]_, then least squares over the frames
-    within three scatters of that.
+    Least absolute distances of the trusted frames by iterated weights [1]_, then least
+    squares over all frames within three scatters of that.
 
     Parameters
     ----------
@@ -100,24 +102,27 @@ def fit(misfit: ArrayLike, heading: ArrayLike) -> Installation:
         Found less recorded position, east and north, metres.
     heading : (n,)
         Of the image's top, degrees clockwise from north.
+    trusted : (n,) bool, optional
+        Frames without alarm; all by default.
 
     Raises
     ------
     InputError
-        If there is no frame to fit.
+        If there is no trusted frame.
     """
     misfit, heading = np.asarray(misfit, float).reshape(-1, 2), np.asarray(heading, float)
-    if not len(misfit):
+    sure = np.ones(len(misfit)) if trusted is None else np.asarray(trusted, float)
+    if not sure.any():
         raise InputError("no frame without alarm to fit the calibration on; use calibration=none")
     design = _design(heading)
-    if len(misfit) < LEAST_FRAMES or _one_direction(heading):
+    if sure.sum() < LEAST_FRAMES or _one_direction(heading[sure > 0]):
         design[..., :2] = 0.0
-    constants = _weighted(design, misfit, np.ones(len(misfit)))
+    constants = _weighted(design, misfit, sure)
     for _ in range(50):
         distance = np.linalg.norm(misfit - design @ constants, axis=1)
-        constants = _weighted(design, misfit, 1 / np.maximum(distance, 1e-3))
+        constants = _weighted(design, misfit, sure / np.maximum(distance, 1e-3))
     left = misfit - design @ constants
-    sigma = max(_scatter(left), SMALLEST_SIGMA_M)
+    sigma = max(_scatter(left[sure > 0]), SMALLEST_SIGMA_M)
     kept = np.linalg.norm(left, axis=1) <= KEPT_SIGMAS * np.sqrt(2) * sigma
     constants = _weighted(design, misfit, kept.astype(float))
     along, across, east, north = constants.tolist()
@@ -126,7 +131,7 @@ def fit(misfit: ArrayLike, heading: ArrayLike) -> Installation:
     )
 
 
-def cross_validated(misfit: ArrayLike, heading: ArrayLike, usable: ArrayLike) -> Array:
+def cross_validated(misfit: ArrayLike, heading: ArrayLike, trusted: ArrayLike) -> Array:
     """(n, 2) metres each frame lies off, by constants fitted without its own fold.
 
     Every fifth frame is of a fold; of fewer than five frames each is a fold by itself.
@@ -134,17 +139,18 @@ def cross_validated(misfit: ArrayLike, heading: ArrayLike, usable: ArrayLike) ->
     Parameters
     ----------
     misfit, heading
-        As for `fit`; NaN where a frame was not placed.
-    usable : (n,) bool
-        Frames to fit on: those without alarm.
+        As for `fit`.
+    trusted : (n,) bool
+        Frames without alarm.
     """
     misfit, heading = np.asarray(misfit, float), np.asarray(heading, float)
-    usable = np.asarray(usable, bool)
+    trusted = np.asarray(trusted, bool)
     fold = np.arange(len(misfit)) % FOLDS
     offsets = np.zeros_like(misfit)
     for k in np.unique(fold):
-        own, others = fold == k, (fold != k) & usable
-        offsets[own] = fit(misfit[others], heading[others]).offsets(heading[own])
+        own, others = fold == k, fold != k
+        constants = fit(misfit[others], heading[others], trusted[others])
+        offsets[own] = constants.offsets(heading[own])
     return offsets
 
 
@@ -175,9 +181,9 @@ def calibrated(table: pd.DataFrame, choice: str, crs: str) -> tuple[pd.DataFrame
     found = table.loc[placed, ["easting", "northing"]].to_numpy(float)
     recorded = table.loc[placed, ["recorded_easting", "recorded_northing"]].to_numpy(float)
     if choice == "cross-validate":
-        usable = ~table.loc[placed, "alarm"].to_numpy(bool)
-        constants = fit((found - recorded)[usable], heading[usable])
-        offsets = cross_validated(found - recorded, heading, usable)
+        trusted = ~table.loc[placed, "alarm"].to_numpy(bool)
+        constants = fit(found - recorded, heading, trusted)
+        offsets = cross_validated(found - recorded, heading, trusted)
     else:
         constants = Installation.read(choice)
         offsets = constants.offsets(heading)
