@@ -19,8 +19,8 @@ from pcnav_study.matching.windows import SMALLEST, Window
 
 Slices = tuple[slice, slice]
 EDGE = 0.36  # cycles/px, the highest frequency kept along either axis
-LONGEST = 320  # px per side of a crop; shading, not the number of pixels, limits beyond it
-HARMONICS = 80  # kept along an axis, at most
+LONGEST = 256  # px per side of a crop; shading, not the number of pixels, limits beyond it
+HARMONICS = 56  # kept along an axis, at most
 SMALL = 80  # px; a smaller crop cannot afford to lose its rim to the taper
 SEARCH_BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass of the search
 FIT_BAND = 0.3  # cycles/px, the same of the sub-pixel fit
@@ -149,7 +149,8 @@ def _stacked(pair: Pair, one: Slices, other: Slices) -> NDArray[np.float32]:
         image = window.values[cut]
         if window.valid is not None:
             image = np.where(window.valid[cut], image, window.mean)
-        np.subtract(image, image.dtype.type(image.mean()), out=out, casting="same_kind")
+        mean = image.dtype.type(np.add.reduce(image, axis=None) / image.size)
+        np.subtract(image, mean, out=out, casting="same_kind")
         if not window.is_tame:
             out /= np.float32(max(float(np.abs(out).max()), 1e-37))
         out *= weight
