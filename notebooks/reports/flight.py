@@ -71,7 +71,17 @@ flight_map(table, footprints, pictures)
 flight_errors(table) if placed.any() else Markdown("No frame was placed.")
 
 # %%
-names = ["frame", "status", "easting", "northing", "error_m", "quality", "agreement", "iterations", "sun"]
+names = [
+    "frame",
+    "status",
+    "easting",
+    "northing",
+    "error_m",
+    "quality",
+    "agreement",
+    "iterations",
+    "sun",
+]
 digits = {"easting": 1, "northing": 1, "error_m": 2, "quality": 3, "agreement": 2, "iterations": 0}
 shown = table[names].astype({name: float for name in digits})
 shown.style.format({name: f"{{:.{n}f}}" for name, n in digits.items()}, na_rep="-").hide(

@@ -39,7 +39,7 @@ flight = catalog.load("frames")
 suns = catalog.load("suns")
 frame = flight.isel(frame=int(np.argmin(flight["sun_difference"].values)))
 camera = Camera((flight.sizes["row"], flight.sizes["col"]), float(flight.attrs["focal_px"]))
-f"{flight.sizes['frame']} frames under {len(suns) - 1} suns; shown: {str(frame['frame'].values)}"
+f"{flight.sizes['frame']} frames under {len(suns) - 1} suns; shown: {frame['frame'].values}"
 
 # %% [markdown]
 # ## 1. The attitude is a rotation
@@ -57,7 +57,9 @@ f"{flight.sizes['frame']} frames under {len(suns) - 1} suns; shown: {str(frame['
 yaw, pitch, roll = (float(frame[name]) for name in ("yaw", "pitch", "roll"))
 psi, theta, rho = np.radians([yaw, pitch, roll])
 turn_z = np.array([[np.cos(psi), np.sin(psi), 0], [-np.sin(psi), np.cos(psi), 0], [0, 0, 1]])
-turn_x = np.array([[1, 0, 0], [0, np.cos(theta), -np.sin(theta)], [0, np.sin(theta), np.cos(theta)]])
+turn_x = np.array(
+    [[1, 0, 0], [0, np.cos(theta), -np.sin(theta)], [0, np.sin(theta), np.cos(theta)]]
+)
 turn_y = np.array([[np.cos(rho), 0, np.sin(rho)], [0, 1, 0], [-np.sin(rho), 0, np.cos(rho)]])
 rotation = turn_z @ turn_x @ turn_y
 position = np.array([float(frame["east"]), float(frame["north"]), float(frame["height"])])
@@ -106,7 +108,7 @@ assert np.allclose([y / w, x / w], [row, col], atol=1e-6), "the homography agree
 # %%
 grid = Grid.of(reference)
 size = 64
-top, left = (int(round(float(v))) - size // 2 for v in grid.row_col(position[0], position[1]))
+top, left = (round(float(v)) - size // 2 for v in grid.row_col(position[0], position[1]))
 part = np.s_[top : top + size, left : left + size]
 window = grid.window(top, left, (size, size))
 image = frame["frames"].values

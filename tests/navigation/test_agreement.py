@@ -24,7 +24,9 @@ def test_all_parts_agree_at_the_true_place(area, method):
 def test_few_parts_agree_on_another_place(area):
     shares = []
     for seed in range(12):
-        other = ndimage.gaussian_filter(np.random.default_rng(100 + seed).normal(size=(128, 128)), 1.5)
+        other = ndimage.gaussian_filter(
+            np.random.default_rng(100 + seed).normal(size=(128, 128)), 1.5
+        )
         shares.append(agreement(area, other, np.zeros(2), "pc-sectors").share)
     assert np.mean(np.array(shares) >= 0.5) <= 0.17
 

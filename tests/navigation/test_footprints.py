@@ -19,7 +19,8 @@ ROW = {
 @pytest.mark.parametrize("order", [1, -1])
 def test_rings_are_closed_counter_clockwise_and_in_degrees(order):
     grid = Grid.centred(500000.0, 4000000.0, (1.0, 1.0), (8, 8), CRS)
-    corners = np.array([[0, 0], [100, 0], [100, 50], [0, 50.0]])[::order] + [500000, 4000000]
+    corners = np.array([[0, 0], [100, 0], [100, 50], [0, 50.0]])[::order]
+    corners += np.array([500000, 4000000])
     fix = SimpleNamespace(footprint=corners, fine=SimpleNamespace(grid=grid))
     lost = ROW | {"frame": "lost.jpg"}
     table = pd.DataFrame([ROW, lost])

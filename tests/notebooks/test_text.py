@@ -13,7 +13,10 @@ SOURCES = sorted((ROOT / "notebooks").rglob("*.py"))
 
 
 def test_every_notebook_is_run_by_the_reporting_or_the_flight_pipeline():
-    listed = {ROOT / "notebooks" / shelf / f"{name}.py" for shelf, name, _ in (*NOTEBOOKS, FLIGHT_NOTEBOOK)}
+    listed = {
+        ROOT / "notebooks" / shelf / f"{name}.py"
+        for shelf, name, _ in (*NOTEBOOKS, FLIGHT_NOTEBOOK)
+    }
     assert listed == set(SOURCES)
 
 

@@ -42,7 +42,8 @@ def flight_map(
     figure.add_scatter(
         x=recorded["recorded_easting"], y=recorded["recorded_northing"], mode="lines+markers",
         line={"color": RECORDED, "width": 1.2, "dash": "dot"}, marker={"size": 5},
-        name="recorded route", text=recorded["frame"], hovertemplate="%{text}, recorded<extra></extra>",
+        name="recorded route", text=recorded["frame"],
+        hovertemplate="%{text}, recorded<extra></extra>",
     )  # fmt: skip
     for alarmed, colour, symbol, name in (
         (False, FOUND, "circle", "found camera"), (True, ALARM, "x", "found camera, alarm"),
@@ -50,7 +51,8 @@ def flight_map(
         rows = placed[placed["alarm"].astype(bool) == alarmed]
         figure.add_scatter(
             x=rows["easting"], y=rows["northing"], mode="markers", name=name,
-            marker={"color": colour, "symbol": symbol, "size": 9, "line": {"width": 1, "color": "white"}},
+            marker={"color": colour, "symbol": symbol, "size": 9,
+                    "line": {"width": 1, "color": "white"}},
             text=rows["frame"] + ": " + rows["status"],
             customdata=rows[["error_m", "quality", "agreement"]],
             hovertemplate="%{text}<br>error %{customdata[0]:.1f} m, quality %{customdata[1]:.3f}, "
@@ -75,7 +77,12 @@ def frame_pictures(pictures: xr.Dataset, frame: str, status: str) -> go.Figure:
         )  # fmt: skip
         anchor = "x" if k == 1 else f"x{k}"
         figure.update_yaxes(
-            autorange="reversed", scaleanchor=anchor, constrain="domain", visible=False, row=1, col=k
+            autorange="reversed",
+            scaleanchor=anchor,
+            constrain="domain",
+            visible=False,
+            row=1,
+            col=k,
         )
         figure.update_xaxes(constrain="domain", visible=False, row=1, col=k)
     return styled(figure, f"{frame}: {status}", 300)

@@ -60,8 +60,8 @@ def read_metadata(path: Path) -> dict[str, Any]:
     """EXIF and XMP values of a frame, under plain names; empty where it carries none.
 
     Keys, each only if present: ``shape`` (rows, columns), ``model``, ``focal_mm``,
-    ``focal_35mm``, ``time``, ``utc_offset``, ``gps_time``, ``latitude``, ``longitude``, ``altitude``, and
-    ``xmp``, a flat dictionary of the XMP attributes.
+    ``focal_35mm``, ``time``, ``utc_offset``, ``gps_time`` (UTC), ``latitude``, ``longitude``,
+    ``altitude``, and ``xmp``, a flat dictionary of the XMP attributes.
     """
     if path.suffix.lower() in {".tif", ".tiff"}:
         return {}

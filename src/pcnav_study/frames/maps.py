@@ -128,8 +128,9 @@ def _pixel_side(raster: rasterio.DatasetReader, grid: Grid) -> float:
         return float(np.sqrt(abs(raster.transform.determinant)))
     to_raster = Transformer.from_crs(grid.crs, raster.crs, always_xy=True)
     east, north = to_raster.transform([x, x + dx, x], [y, y, y - dy])
-    sides = np.array([np.diff(east[:2])[0], np.diff(north[:2])[0]]), np.array(
-        [east[2] - east[0], north[2] - north[0]]
+    sides = (
+        np.array([np.diff(east[:2])[0], np.diff(north[:2])[0]]),
+        np.array([east[2] - east[0], north[2] - north[0]]),
     )
     area = abs(float(np.linalg.det(np.stack(sides))))
     ratio = abs(raster.transform.determinant) / area if area > 0 and np.isfinite(area) else 1.0

@@ -88,9 +88,7 @@ class Installation:
         return asdict(self)
 
 
-def fit(
-    misfit: ArrayLike, heading: ArrayLike, trusted: ArrayLike | None = None
-) -> Installation:
+def fit(misfit: ArrayLike, heading: ArrayLike, trusted: ArrayLike | None = None) -> Installation:
     """Constants from frames of known position.
 
     Least absolute distances of the trusted frames by iterated weights [1]_, then least

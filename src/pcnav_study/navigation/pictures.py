@@ -77,7 +77,9 @@ def _chosen(table: pd.DataFrame, fixes: Mapping[str, Fix], number: int) -> list[
     if placed.empty or number < 1:
         return []
     alarmed = placed[placed["alarm"].astype(bool)].sort_values("agreement")["frame"]
-    along = placed["frame"].iloc[np.linspace(0, len(placed) - 1, min(number, len(placed))).astype(int)]
+    along = placed["frame"].iloc[
+        np.linspace(0, len(placed) - 1, min(number, len(placed))).astype(int)
+    ]
     first = [str(name) for name in alarmed.iloc[:1]]
     names = list(dict.fromkeys([*first, *map(str, along)]))
     return names[:number]

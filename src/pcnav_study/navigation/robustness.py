@@ -29,7 +29,9 @@ def resampled(image: Picture, factor: float, rng: np.random.Generator) -> Pictur
     """Magnified by ``factor``; the camera is told."""
     shape = tuple(max(1, round(n * factor)) for n in image.shape)
     grey = Image.fromarray(np.nan_to_num(image))
-    small = grey.resize(shape[::-1], Image.Resampling.BOX if factor < 1 else Image.Resampling.BICUBIC)
+    small = grey.resize(
+        shape[::-1], Image.Resampling.BOX if factor < 1 else Image.Resampling.BICUBIC
+    )
     return np.asarray(small, np.float32)
 
 

@@ -22,9 +22,7 @@ from pcnav_study.scene.grid import Grid
 from pcnav_study.scene.sun import SunPosition
 
 Suns = tuple[SunPosition, SunPosition]
-OFF_THE_MAP = (
-    "off the map: neither map nor DEM covers the frame; give a map that covers the flight"
-)
+OFF_THE_MAP = "off the map: neither map nor DEM covers the frame; give a map that covers the flight"
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from pcnav_study.errors import InputError
-from pcnav_study.scene.distortion import Distortion
+from pcnav_study.scene.distortion import NO_DISTORTION, Distortion
 
 Array = NDArray[np.float64]
 
@@ -91,7 +91,7 @@ class Camera:
     shape: tuple[int, int]
     focal_px: float
     principal_point: tuple[float, float] = (0.0, 0.0)
-    distortion: Distortion = Distortion()
+    distortion: Distortion = NO_DISTORTION
 
     def __post_init__(self) -> None:
         if min(self.shape) < 1 or not self.focal_px > 0:

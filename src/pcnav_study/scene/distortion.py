@@ -59,3 +59,6 @@ class Distortion(NamedTuple):
             u = u + (yy * off_x - xy * off_y) / determinant
             v = v + (xx * off_y - xy * off_x) / determinant
         return u, v
+
+
+NO_DISTORTION = Distortion()
