@@ -3,15 +3,12 @@
 from kedro.framework.project import find_pipelines
 from kedro.pipeline import Pipeline
 
-from pcnav_study.pipelines.flight import create_robustness_pipeline
-
 ON_REQUEST = {"flight", "flight_robustness"}
 
 
 def register_pipelines() -> dict[str, Pipeline]:
     """Pipelines found in ``pcnav_study.pipelines``, and their sum as ``__default__``."""
     pipelines = find_pipelines(raise_errors=True)
-    pipelines["flight_robustness"] = create_robustness_pipeline()
     pipelines["__default__"] = sum(
         (pipeline for name, pipeline in pipelines.items() if name not in ON_REQUEST),
         Pipeline([]),

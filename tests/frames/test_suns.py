@@ -46,7 +46,11 @@ def test_a_map_tells_its_sun_or_its_time(tmp_path, tags, azimuth, zenith):
 
 @pytest.mark.parametrize(
     "tags",
-    [{}, {"TIFFTAG_DATETIME": "2015:09:23 08:10:29"}, {"SUN_AZIMUTH": "high", "SUN_ELEVATION": "1"}],
+    [
+        {},
+        {"TIFFTAG_DATETIME": "2015:09:23 08:10:29"},
+        {"SUN_AZIMUTH": "high", "SUN_ELEVATION": "1"},
+    ],
 )
 def test_a_map_without_sun_or_zone_has_no_sun_and_says_so(tmp_path, tags):
     sun, note = map_sun(write(tmp_path / "map.tif", tags=tags))

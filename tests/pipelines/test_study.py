@@ -9,6 +9,8 @@ import pandas as pd
 import pytest
 import xarray as xr
 
+from pcnav_study.pipelines.reporting.pipeline import NOTEBOOKS
+
 DATA = {".nc", ".tif", ".csv", ".parquet"}
 
 
@@ -20,7 +22,7 @@ def test_default_run_ends_in_a_site_whose_links_lead_somewhere(finished):
     site = finished.path / "data/08_reporting/site"
     index = (site / "index.html").read_text()
     pages = [line.split('href="')[1].split('"')[0] for line in index.splitlines() if "<h3>" in line]
-    assert len(pages) == 2
+    assert len(pages) == len(NOTEBOOKS)
     for page in pages:
         text = (site / page).read_text()
         assert "Plotly.newPlot" in text

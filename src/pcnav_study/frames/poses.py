@@ -140,7 +140,7 @@ def _read(path: Path, required: tuple[str, ...]) -> dict[str, dict[str, Any]]:
         table[name] = numbers
     kept = table.select_dtypes("number").assign(frame=table["frame"])
     if "time" in table:
-        kept["time"] = table["time"].fillna("").astype(str)
+        kept["time"] = table["time"].astype(object).where(table["time"].notna(), "").astype(str)
     return {str(k): row for k, row in kept.set_index("frame").to_dict("index").items()}
 
 

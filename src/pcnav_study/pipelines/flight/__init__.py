@@ -1,5 +1,5 @@
 """Localise a user's flight folder."""
 
-from pcnav_study.pipelines.flight.pipeline import create_pipeline, create_robustness_pipeline
+from pcnav_study.pipelines.flight.pipeline import create_pipeline
 
-__all__ = ["create_pipeline", "create_robustness_pipeline"]
+__all__ = ["create_pipeline"]

@@ -17,10 +17,9 @@ from pcnav_study.navigation import (
     flight_table,
     footprint_collection,
     localise_flight,
-    robustness_curves,
 )
 from pcnav_study.notebook import project_path
-from pcnav_study.pipelines.parameters import Flight, FlightRobustness
+from pcnav_study.pipelines.parameters import Flight
 from pcnav_study.pipelines.reporting import pages
 from pcnav_study.progress import progress
 
@@ -47,13 +46,6 @@ def localise(flight: Flight) -> Outputs:
     footprints = footprint_collection(table, fixes, constants)
     pictures = flight_pictures(folder, table, fixes, flight.pictures)
     return table, footprints, constants.as_dict(), pictures
-
-
-def measure_robustness(flight: Flight, robustness: FlightRobustness) -> pd.DataFrame:
-    """Success and alarms of a flight's frames under growing damage."""
-    folder = FlightFolder.open(flight.folder, flight.reference, flight.dem)
-    settings = FlightSettings(**flight.model_dump(exclude=PLACES))
-    return robustness_curves(folder, settings, **robustness.model_dump())
 
 
 def build_flight_page(notebook: str) -> tuple[str, str]:

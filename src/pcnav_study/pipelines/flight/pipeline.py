@@ -1,10 +1,10 @@
-"""Two pipelines on request: a flight with its report, and curves of its robustness."""
+"""The flight pipeline: positions, and the page that shows them."""
 
 from functools import partial, update_wrapper
 
 from kedro.pipeline import Node, Pipeline
 
-from pcnav_study.pipelines.flight.nodes import build_flight_page, localise, measure_robustness
+from pcnav_study.pipelines.flight.nodes import build_flight_page, localise
 from pcnav_study.pipelines.reporting.nodes import run_notebook
 
 READS = ("flight_positions", "flight_footprints", "flight_calibration", "flight_pictures")
@@ -24,19 +24,5 @@ def create_pipeline() -> Pipeline:
                 ["flight_page", "flight_plotly_js"],
                 name="render_flight",
             ),
-        ]
-    )
-
-
-def create_robustness_pipeline() -> Pipeline:
-    """Curves of success and alarm under damage; slow, so only by name."""
-    return Pipeline(
-        [
-            Node(
-                measure_robustness,
-                ["params:flight", "params:flight_robustness"],
-                "flight_robustness",
-                name="measure_flight_robustness",
-            )
         ]
     )
