@@ -19,7 +19,8 @@ UTM = "EPSG:32616"
 GRID = Grid.centred(500000.0, 4000000.0, (2.0, 2.0), (320, 320), UTM)
 CAMERA = Camera((160, 180), 160.0)
 SETTINGS = FlightSettings(prior_error_m=10.0, prior_offset_m=6.0, seed=2)
-COLUMNS = "frame,latitude_deg,longitude_deg,height_above_ground_m,flight_yaw_deg,time".split(",")
+COLUMNS = ["frame", "latitude_deg", "longitude_deg"]
+COLUMNS += ["height_above_ground_m", "flight_yaw_deg", "time"]
 
 
 def entry(name, height=400.0, yaw=30.0, time=""):
