@@ -14,7 +14,7 @@ from pyproj import CRS, Transformer
 
 from pcnav_study.figures.style import styled
 
-RECORDED, FOUND, ALARM = "#0072B2", "#009E73", "#D55E00"
+RECORDED, FOUND, ALARM = "#56B4E9", "#00C08B", "#FF7F2A"  # seen on grey
 TITLES = ("frame", "rectified", "map there", "score of every shift")
 
 

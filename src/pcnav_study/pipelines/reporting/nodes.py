@@ -38,15 +38,24 @@ def build_site(
     cards: dict[str, list[dict[str, Any]]] = {}
     for shelf, members in shelves.items():
         for name in members:
-            title, lead = pages.heading(pages.parse(notebooks[name]))
             shown = run.version(f"{name}_page")
-            others = [v for v in run.versions(f"{name}_page") if v != shown]
-            earlier = [{"version": v, "href": _href(name, v)} for v in others]
-            card = {"title": title, "lead": lead, "href": _href(name, shown), "earlier": earlier}
-            cards.setdefault(shelf, []).append(card)
+            cards.setdefault(shelf, []).append(_card(name, notebooks[name], shown, run))
+    flights = run.versions("flight_page")
+    if flights:
+        cards.setdefault("reports", []).append(
+            _card("flight", run.catalog.load("flight_notebook"), flights[0], run)
+        )
     where = project_path() / "data" / "08_reporting" / "site" / "index.html"
     logger.info("The report is ready: %s", where)
     return pages.index(cards, run.save_version), pages.plotly_js()
+
+
+def _card(name: str, notebook: str, shown: str | None, run: Run) -> dict[str, Any]:
+    """What the index says of a page, and of its earlier versions."""
+    title, lead = pages.heading(pages.parse(notebook))
+    others = [v for v in run.versions(f"{name}_page") if v != shown]
+    earlier = [{"version": v, "href": _href(name, v)} for v in others]
+    return {"title": title, "lead": lead, "href": _href(name, shown), "earlier": earlier}
 
 
 def _href(name: str, version: str | None) -> str:
