@@ -82,7 +82,7 @@ def test_a_list_is_no_camera(tmp_path):
 
 
 def test_a_camera_that_is_no_pinhole_is_refused_by_its_type(tmp_path):
-    with pytest.raises(InputError, match=r"fisheye.*only pinhole"):
+    with pytest.raises(InputError, match=r"fisheye.*use pinhole or brown"):
         camera_from_file(written(tmp_path, GOOD | {"type": "fisheye"}))
 
 
@@ -122,3 +122,10 @@ def test_a_focal_length_that_is_no_number_gives_no_camera(model):
     nan = float("nan")
     with pytest.raises(InputError):
         camera_from_metadata({"shape": (6, 9), "model": model, "focal_mm": nan, "focal_35mm": nan})
+
+
+def test_a_brown_camera_reads_its_coefficients_and_a_pinhole_does_not(tmp_path):
+    lens = {"k1": -0.2, "k2": 0.05, "k3": 0.001, "p1": 0.0003, "p2": -0.0004}
+    brown = camera_from_file(written(tmp_path, GOOD | {"type": "brown"} | lens))
+    assert brown.distortion._asdict() == lens
+    assert not any(camera_from_file(written(tmp_path, GOOD | lens)).distortion)

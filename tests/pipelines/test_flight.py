@@ -69,6 +69,17 @@ def test_good_frames_are_placed_and_bad_ones_say_why(finished, folder):
     assert not placed["alarm"].any()
     assert (placed["prior_error_m"] > 10).all()
     assert (placed["error_m"] < 93).all(), "within a pixel of the map"
+    footprints = json.loads(finished.versions("flight_footprints.geojson")[-1].read_text())
+    assert [f["properties"]["frame"] for f in footprints["features"]] == ["0.png", "1.png"]
+    for feature in footprints["features"]:
+        ring = np.array(feature["geometry"]["coordinates"][0])
+        inside = ring.min(axis=0), ring.max(axis=0)
+        camera = [feature["properties"][f"camera_{n}"] for n in ("longitude", "latitude")]
+        assert (inside[0] < camera).all() and (camera < inside[1]).all()
+    page = finished.versions("flight.html")[-1].read_text()
+    assert "A flight, found on its map" in page
+    assert "9_far.png" in page and "off the map" in page
+    assert page.count('id="figure-') >= 3
     reasons = {
         "7_truncated.png": "cannot be read",
         "8_nowhere.png": "no position",

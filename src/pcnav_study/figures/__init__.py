@@ -1,5 +1,6 @@
 """Interactive Plotly figures, built from datasets; they draw and measure nothing."""
 
+from pcnav_study.figures.flight import flight_errors, flight_map, frame_pictures
 from pcnav_study.figures.light import light_maps, sweep_curves
 from pcnav_study.figures.matches import error_by_sun, match_pictures, success_by_sun
 from pcnav_study.figures.phase import peak_by_azimuth, signs_and_surface
@@ -8,6 +9,9 @@ from pcnav_study.figures.terrain import image_row, slope_aspect_surface
 
 __all__ = [
     "error_by_sun",
+    "flight_errors",
+    "flight_map",
+    "frame_pictures",
     "image_row",
     "light_maps",
     "match_pictures",

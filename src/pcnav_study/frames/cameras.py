@@ -8,6 +8,7 @@ from typing import Any
 
 from pcnav_study.errors import InputError
 from pcnav_study.scene.camera import Camera
+from pcnav_study.scene.distortion import Distortion
 
 # Sensor widths in mm by EXIF model, from the makers' data sheets: the 35 mm equivalent
 # is rounded and refers to the uncropped diagonal, so it is the second choice.
@@ -26,9 +27,11 @@ _FULL_FRAME_WIDTH_MM = 36.0
 
 
 def camera_from_file(path: Path) -> Camera:
-    """A pinhole camera from JSON: image_size_px, focal_length_mm, sensor_size_mm.
+    """A camera from JSON: image_size_px, focal_length_mm, sensor_size_mm.
 
     Sizes are (width, height); ``principal_point`` is (x right, y down), in px from the middle.
+    ``type`` is "pinhole" (the default) or "brown"; the latter reads ``k1, k2, k3, p1, p2``,
+    OpenCV's, zero where absent.
 
     Raises
     ------
@@ -40,15 +43,18 @@ def camera_from_file(path: Path) -> Camera:
         width, height = spec["image_size_px"]
         focal_px = spec["focal_length_mm"] / spec["sensor_size_mm"][0] * width
         x0, y0 = map(float, spec.get("principal_point", (0.0, 0.0)))
-        camera = Camera((int(height), int(width)), float(focal_px), (y0, x0))
+        kind = spec.get("type", "pinhole")
+        lens = Distortion(*(float(spec.get(name, 0.0)) for name in Distortion._fields))
+        lens = lens if kind == "brown" else Distortion()
+        camera = Camera((int(height), int(width)), float(focal_px), (y0, x0), lens)
     except json.JSONDecodeError as error:
         raise InputError(f"{path} is not valid JSON ({error}); correct it") from error
     except KeyError as error:
         raise InputError(f"{path} lacks the key {error}; add it") from error
     except (TypeError, ValueError, IndexError, ZeroDivisionError) as error:
         raise InputError(f"{path} holds a malformed value ({error}); correct it") from error
-    if spec.get("type", "pinhole") != "pinhole":
-        raise InputError(f"{path} asks for a {spec['type']} camera; only pinhole is supported")
+    if kind not in {"pinhole", "brown"}:
+        raise InputError(f"{path} asks for a {kind} camera; use pinhole or brown")
     return camera
 
 

@@ -60,8 +60,8 @@ def read_metadata(path: Path) -> dict[str, Any]:
     """EXIF and XMP values of a frame, under plain names; empty where it carries none.
 
     Keys, each only if present: ``shape`` (rows, columns), ``model``, ``focal_mm``,
-    ``focal_35mm``, ``time``, ``utc_offset``, ``latitude``, ``longitude``, ``altitude``, and
-    ``xmp``, a flat dictionary of the XMP attributes.
+    ``focal_35mm``, ``time``, ``utc_offset``, ``gps_time`` (UTC), ``latitude``, ``longitude``,
+    ``altitude``, and ``xmp``, a flat dictionary of the XMP attributes.
     """
     if path.suffix.lower() in {".tif", ".tiff"}:
         return {}
@@ -90,7 +90,22 @@ def read_metadata(path: Path) -> dict[str, Any]:
     if 6 in gps:
         below = gps.get(5, b"\x00") in (b"\x01", 1)
         found["altitude"] = _number(gps[6]) * (-1 if below else 1)
+    stamp = _gps_time(gps)
+    if stamp:
+        found["gps_time"] = stamp
     return found
+
+
+def _gps_time(gps: dict[int, Any]) -> str:
+    """Date and time of the GPS fix, which is UTC; empty if not recorded."""
+    date, clock = str(gps.get(29, "")).strip("\x00 "), gps.get(7)
+    if len(date) != 10 or not isinstance(clock, tuple) or len(clock) != 3:
+        return ""
+    hours, minutes, seconds = (_number(value) for value in clock)
+    if not np.isfinite([hours, minutes, seconds]).all():
+        return ""
+    day = date.replace(":", "-")
+    return f"{day}T{int(hours):02d}:{int(minutes):02d}:{seconds:06.3f}+00:00"
 
 
 def colour_bands(raster: rasterio.DatasetReader) -> list[int]:

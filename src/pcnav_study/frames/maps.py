@@ -26,8 +26,11 @@ from pcnav_study.errors import InputError
 from pcnav_study.frames.images import colour_bands
 from pcnav_study.scene.grid import Grid
 
+VISIBLE_UM = (0.45, 0.70)
 
-def _open(path: str) -> rasterio.DatasetReader:
+
+def open_map(path: str) -> rasterio.DatasetReader:
+    """A raster to read from; raises InputError if it cannot be opened or has no CRS."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", NotGeoreferencedWarning)
@@ -52,7 +55,7 @@ def metric_crs(path: str) -> tuple[str, float]:
     InputError
         If the map cannot be opened or has no CRS.
     """
-    with _open(path) as raster:
+    with open_map(path) as raster:
         own = CRS.from_wkt(raster.crs.to_wkt())
         horizontal = own.sub_crs_list[0] if own.is_compound else own
         middle = raster.transform @ (raster.width / 2, raster.height / 2)
@@ -76,15 +79,17 @@ def metric_crs(path: str) -> tuple[str, float]:
 
 
 def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
-    """Mean of a map's first (up to three) bands on ``grid``; NaN where it has no data."""
-    with _open(path) as raster:
+    """Mean of a map's visible bands on ``grid``; NaN where it has no data.
+
+    Where the grid is coarser than the map, map pixels are averaged, through overviews.
+    """
+    with open_map(path) as raster:
         missing = {"dtype": "float32", "nodata": np.nan}
         if ColorInterp.alpha in raster.colorinterp:
             missing = {}  # transparency says it
         elif raster.nodata is None:
             missing |= {"src_nodata": np.nan}
-        source_pixel = np.sqrt(abs(raster.transform.determinant))
-        shrinking = raster.crs == CRS(grid.crs) and source_pixel < 0.9 * grid.pixel_size[0]
+        shrinking = _pixel_side(raster, grid) < 0.9 * grid.pixel_size[0]
         with WarpedVRT(
             raster,
             crs=grid.crs,
@@ -94,8 +99,42 @@ def read_window(path: str, grid: Grid) -> NDArray[np.float32]:
             resampling=Resampling.average if shrinking else Resampling.bilinear,
             **missing,
         ) as warped:
-            bands = warped.read(colour_bands(raster), masked=True).astype(np.float32)
+            bands = warped.read(visible_bands(raster), masked=True).astype(np.float32)
     return np.asarray(bands.filled(np.nan).mean(axis=0), np.float32)
+
+
+def visible_bands(raster: rasterio.DatasetReader) -> list[int]:
+    """Indices of the bands that a camera's red, green and blue come closest to.
+
+    Bands tagged with a ``center_wavelength`` in the visible (0.45 to 0.70 micrometres; the
+    coastal band below is haze); otherwise the first (up to three) that are no alpha band.
+    """
+    tagged = []
+    for index in raster.indexes:
+        try:
+            wavelength = float(raster.tags(index)["center_wavelength"])
+        except (KeyError, ValueError):
+            continue
+        if VISIBLE_UM[0] <= wavelength <= VISIBLE_UM[1]:
+            tagged.append(index)
+    return tagged or colour_bands(raster)
+
+
+def _pixel_side(raster: rasterio.DatasetReader, grid: Grid) -> float:
+    """Side of a raster's pixel in units of ``grid``, at the grid's middle."""
+    x, y = grid.transform @ (grid.shape[1] / 2, grid.shape[0] / 2)
+    dy, dx = grid.pixel_size
+    if raster.crs is None or raster.crs == CRS(grid.crs):
+        return float(np.sqrt(abs(raster.transform.determinant)))
+    to_raster = Transformer.from_crs(grid.crs, raster.crs, always_xy=True)
+    east, north = to_raster.transform([x, x + dx, x], [y, y, y - dy])
+    sides = (
+        np.array([np.diff(east[:2])[0], np.diff(north[:2])[0]]),
+        np.array([east[2] - east[0], north[2] - north[0]]),
+    )
+    area = abs(float(np.linalg.det(np.stack(sides))))
+    ratio = abs(raster.transform.determinant) / area if area > 0 and np.isfinite(area) else 1.0
+    return float(np.sqrt(ratio * dx * dy))
 
 
 def read_elevation(path: str) -> xr.DataArray:
@@ -107,7 +146,7 @@ def read_elevation(path: str) -> xr.DataArray:
         If it cannot be opened, has no CRS, or holds no height.
     """
     crs, _ = metric_crs(path)
-    with _open(path) as raster:
+    with open_map(path) as raster:
         transform, cols, rows = calculate_default_transform(
             raster.crs, crs, raster.width, raster.height, *raster.bounds
         )

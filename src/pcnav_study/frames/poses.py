@@ -38,12 +38,14 @@ class PoseRecord:
 
     Names: ``easting``, ``northing`` (map CRS) or ``latitude``, ``longitude``; ``altitude``
     (above the vertical datum) and ``height_above_ground`` in metres; ``omega``, ``phi``,
-    ``kappa`` or ``yaw``, ``pitch``, ``roll`` of the camera in degrees.
+    ``kappa`` or ``yaw``, ``pitch``, ``roll`` of the camera in degrees. ``time`` holds the
+    texts ``time`` and, if recorded apart, ``utc_offset``.
     """
 
     frame: str
     values: dict[str, float] = field(default_factory=dict)
     sources: dict[str, str] = field(default_factory=dict)
+    time: dict[str, str] = field(default_factory=dict)
 
     def offer(self, source: str, values: dict[str, float]) -> None:
         """Add the values not known from a better source."""
@@ -51,6 +53,12 @@ class PoseRecord:
             if name not in self.values and np.isfinite(value):
                 self.values[name] = value
                 self.sources[name] = source
+
+    def turned(self, degrees: float) -> PoseRecord:
+        """The same record with its heading wrong by that much, clockwise."""
+        signs = {"yaw": 1, "kappa": -1}  # kappa runs the other way
+        values = {k: v + degrees * signs.get(k, 0) for k, v in self.values.items()}
+        return PoseRecord(self.frame, values, self.sources, self.time)
 
     @property
     def has_position(self) -> bool:
@@ -63,7 +71,18 @@ class PoseRecord:
     @property
     def source(self) -> str:
         """The sources used, best first, as text."""
-        return "+".join(dict.fromkeys(self.sources.values()))
+        return "+".join(dict.fromkeys(v for k, v in self.sources.items() if k != "time"))
+
+    @property
+    def origins(self) -> str:
+        """Every value's origin, as text: "latitude: flight_log.csv; yaw: XMP"."""
+        return "; ".join(f"{name}: {source}" for name, source in self.sources.items())
+
+    def take_time(self, source: str, time: dict[str, str]) -> None:
+        """Take the time of the best source that has one."""
+        if time.get("time") and not self.time:
+            self.time.update(time)
+            self.sources["time"] = source
 
 
 def pose_records(
@@ -94,11 +113,14 @@ def pose_records(
         record.offer("XMP", _from_xmp(seen.get("xmp", {})))
         names = ("latitude", "longitude", "altitude")
         record.offer("EXIF", {name: seen[name] for name in names if name in seen})
+        record.take_time("flight_log.csv", {"time": str((row or {}).get("time", "") or "")})
+        record.take_time("EXIF GPS", {"time": seen.get("gps_time", "")})
+        record.take_time("EXIF", {k: seen[k] for k in ("time", "utc_offset") if k in seen})
         records[path.name] = record
     return records
 
 
-def _read(path: Path, required: tuple[str, ...]) -> dict[str, dict[str, float]]:
+def _read(path: Path, required: tuple[str, ...]) -> dict[str, dict[str, Any]]:
     """Numeric columns of a CSV by frame."""
     try:
         table = pd.read_csv(path, dtype={"frame": str})
@@ -116,8 +138,10 @@ def _read(path: Path, required: tuple[str, ...]) -> dict[str, dict[str, float]]:
         if len(bad):
             raise InputError(f"{path} column {name}, frame {bad.iloc[0]}: not a number; correct it")
         table[name] = numbers
-    numeric = table.set_index("frame").select_dtypes("number")
-    return {str(k): row for k, row in numeric.to_dict("index").items()}
+    kept = table.select_dtypes("number").assign(frame=table["frame"])
+    if "time" in table:
+        kept["time"] = table["time"].astype(object).where(table["time"].notna(), "").astype(str)
+    return {str(k): row for k, row in kept.set_index("frame").to_dict("index").items()}
 
 
 def _from_xmp(xmp: dict[str, str]) -> dict[str, float]:

@@ -63,26 +63,30 @@ def rectify(
     return np.asarray(looked_up, np.float32)
 
 
-def inscribed_grid(
-    corners: NDArray[np.float64], pixel: float, crs: str, *, largest: int = 512
-) -> Grid:
-    """The largest north-up square in a footprint, of even side, as a grid.
+def bounding_grid(corners: NDArray[np.float64], pixel: float, crs: str) -> Grid:
+    """The smallest north-up grid of even sides that holds a footprint.
 
     Parameters
     ----------
     corners : (4, 2)
-        East and north of a convex footprint.
+        East and north.
     pixel : float
         Side of a pixel in metres.
-    largest : int
-        No more pixels a side than this.
+    """
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    cols, rows = (2 * int(np.ceil(side / 2 / pixel)) for side in high - low)
+    middle = (low + high) / 2
+    return Grid.centred(middle[0], middle[1], (pixel, pixel), (rows, cols), crs)
+
+
+def central_grid(corners: NDArray[np.float64], pixel: float, crs: str) -> Grid:
+    """The north-up square, of even side, about a footprint's middle and as wide as it is narrow.
+
+    Its corners may lie outside the picture.
     """
     middle = corners.mean(axis=0)
-    edges = np.roll(corners, -1, axis=0) - corners
-    normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
-    distance = np.abs(((corners - middle) * normals).sum(axis=1))
-    half = float((distance / np.abs(normals).sum(axis=1)).min())
-    side = min(2 * int(half / pixel), largest)
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)
+    side = 2 * int(sides.min() / 2 / pixel)
     return Grid.centred(middle[0], middle[1], (pixel, pixel), (side, side), crs)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 from pyproj import CRS
 
 from pcnav_study.errors import InputError
@@ -14,9 +15,11 @@ from pcnav_study.frames.cameras import camera_from_file
 from pcnav_study.frames.folder import FlightFolder
 from pcnav_study.frames.images import read_metadata
 from pcnav_study.frames.maps import metric_crs
-from pcnav_study.frames.poses import pose_records
+from pcnav_study.frames.poses import PoseRecord, pose_records
+from pcnav_study.frames.suns import frame_time, map_sun
 from pcnav_study.matching import METHODS
-from pcnav_study.navigation.localise import Fix, FlightSettings, Site, localise_frame
+from pcnav_study.navigation.localise import Fix, FlightSettings, localise_frame
+from pcnav_study.navigation.site import Site
 
 COLUMNS = (
     "frame",
@@ -34,7 +37,17 @@ COLUMNS = (
     "method",
     "pixel_m",
     "crs",
+    "recorded_easting",
+    "recorded_northing",
+    "centre_easting",
+    "centre_northing",
+    "heading_deg",
+    "agreement",
+    "iterations",
+    "calibration",
+    "sun",
     "pose_source",
+    "pose_origins",
 )
 
 
@@ -59,6 +72,7 @@ def localise_flight(
         camera_from_file(folder.camera)
     if folder.dem:
         metric_crs(folder.dem)
+    map_note = map_sun(folder.reference)[1]
     metadata = {path.name: read_metadata(path) for path in folder.frames}
     records = pose_records(folder.frames, metadata, folder.camera_pose, folder.flight_log)
     rng = np.random.default_rng(settings.seed)
@@ -67,7 +81,8 @@ def localise_flight(
         record = records[path.name]
         row: dict[str, Any] = dict.fromkeys(COLUMNS)
         row |= {"frame": path.name, "alarm": True, "method": settings.method, "crs": short_crs}
-        row |= {"quality": 0.0, "pose_source": record.source}
+        row |= {"quality": 0.0, "pose_source": record.source, "pose_origins": record.origins}
+        row |= {"calibration": "none", "sun": _sun_note(site, record, map_note)}
         try:
             recorded = np.array(site.position(record))
             row["prior_error_m"] = float(np.hypot(*offset))
@@ -85,23 +100,38 @@ def flight_table(rows: list[dict[str, Any]]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _placed(fix: Fix, recorded: np.ndarray[Any, Any]) -> dict[str, Any]:
+def _placed(fix: Fix, recorded: NDArray[np.float64]) -> dict[str, Any]:
     """Row entries of a placed frame."""
     east, north = fix.position
-    latitude, longitude = fix.grid.to_wgs84(east, north)
+    latitude, longitude = fix.fine.grid.to_wgs84(east, north)
     return {
-        "status": "alarm: no trustworthy match" if fix.alarm else "placed",
+        "status": f"alarm: {fix.reason}" if fix.alarm else "placed",
         "easting": round(east, 3),
         "northing": round(north, 3),
         "latitude": round(latitude, 8),
         "longitude": round(longitude, 8),
-        "quality": round(fix.result.quality, 6),
+        "quality": round(fix.fine.result.quality, 6),
         "alarm": fix.alarm,
-        "shift_row_px": round(float(fix.result.shift[0]), 4),
-        "shift_col_px": round(float(fix.result.shift[1]), 4),
+        "shift_row_px": round(float(fix.shift[0]), 4),
+        "shift_col_px": round(float(fix.shift[1]), 4),
         "error_m": round(float(np.hypot(*(np.array(fix.position) - recorded))), 3),
-        "pixel_m": round(fix.grid.pixel_size[0], 4),
+        "pixel_m": round(fix.fine.grid.pixel_size[0], 4),
+        "recorded_easting": round(float(recorded[0]), 3),
+        "recorded_northing": round(float(recorded[1]), 3),
+        "centre_easting": round(fix.centre[0], 3),
+        "centre_northing": round(fix.centre[1], 3),
+        "heading_deg": round(fix.yaw, 3),
+        "agreement": round(fix.agreement, 3),
+        "iterations": fix.iterations,
     }
+
+
+def _sun_note(site: Site, record: PoseRecord, map_note: str) -> str:
+    """Whether both suns are known, and if not, why."""
+    if site.sun is None:
+        return f"unknown: {map_note}"
+    time, note = frame_time(record.time)
+    return f"unknown: {note}" if time is None else f"known: map by {map_note}, frame by its time"
 
 
 def _short(crs: str) -> str:

@@ -1,29 +1,43 @@
-"""One frame on the map: from a believed pose to a found position."""
+"""One frame on the map: from a believed pose to a found position, coarse to fine.
+
+The whole footprint, rectified coarsely, is sought in all of the prior's reach. The square
+in its middle, where lens and tilt distort least, is then placed at the map's own sharpness;
+it is rectified anew at each position found, until position and rectification agree.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pyproj import Transformer
 
 from pcnav_study.errors import InputError
-from pcnav_study.frames.cameras import camera_from_file, camera_from_metadata
-from pcnav_study.frames.folder import FlightFolder
 from pcnav_study.frames.images import read_grey
-from pcnav_study.frames.maps import metric_crs, read_window
+from pcnav_study.frames.maps import read_window
+from pcnav_study.frames.occlusion import occluded
 from pcnav_study.frames.poses import PoseRecord
-from pcnav_study.frames.rectify import inscribed_grid, rectify
+from pcnav_study.frames.rectify import bounding_grid, central_grid, rectify
 from pcnav_study.matching import MatchResult, match
+from pcnav_study.navigation.agreement import LEAST, agreement
+from pcnav_study.navigation.site import Site, Suns
 from pcnav_study.quality.alarm import is_alarm
 from pcnav_study.scene.camera import Camera, Pose
 from pcnav_study.scene.grid import Grid
 
-MAP_SHARE = 0.5  # of a search area that must hold map data
+MAP_SHARE = 0.3  # of a search area that must hold map data
+SEARCH_SIGMAS = 3.5  # one prior in a thousand, of two axes, lies beyond
+SEARCH_PX = 200  # side of the coarse footprint
+LARGEST_SEARCH_PX = 4096
+FINE_REACH = 0.1  # of the shorter side: what the coarse search may be wrong by
+SETTLED_PX = 0.1
+ITERATIONS = 8
+DAMPED = 4  # first step of which only half is taken
+SMALLEST_PX = 16
 
 
 def located(
@@ -47,121 +61,100 @@ class FlightSettings:
     method : str
         A name in ``pcnav_study.matching.METHODS``.
     prior_error_m : float or None
-        Standard deviation of the believed position; three of them are searched. None: a
-        tenth of the picture's shorter side on the ground.
+        Standard deviation, per axis, of the believed position; 3.5 of them are searched.
+        None: a tenth of the picture's shorter side on the ground.
     prior_offset_m : float
         Standard deviation, per axis, of an error added to the recorded position, to see
         what a poor prior does.
     seed : int
         Of that error.
     largest_patch_px : int
-        Side of the rectified square; larger footprints are down-sampled.
+        Side of the finely rectified square; larger footprints are down-sampled.
     false_match_rate : float
         Share of unrelated pairs that may pass unalarmed.
+    calibration : str
+        "none", "cross-validate", or a file of constants; see `navigation.calibration`.
     """
 
-    method: str
+    method: str = "pc-sectors"
     prior_error_m: float | None = None
     prior_offset_m: float = 0.0
     seed: int = 0
-    largest_patch_px: int = 384
+    largest_patch_px: int = 256
     false_match_rate: float = 0.01
+    calibration: str = "none"
 
 
 @dataclass(frozen=True)
-class Fix:
-    """A placed frame, with what it was placed by."""
+class Step:
+    """One match: the frame on a grid, the map around it, and the result."""
 
-    position: tuple[float, float]
     grid: Grid
     patch: NDArray[np.float32]
     window: NDArray[np.float32]
     result: MatchResult
-    alarm: bool
 
 
 @dataclass(frozen=True)
-class Site:
-    """A flight folder with the CRS, in metres, that its frames are placed in."""
+class Fix:
+    """A placed frame, with what it was placed by.
 
-    folder: FlightFolder
+    ``position`` is the camera's, ``centre`` that of the picture's middle on the ground, and
+    ``footprint`` (4, 2) the corners of the picture there: east and north, metres.
+    """
 
-    @cached_property
-    def crs(self) -> str:
-        """The map's own CRS if in metres, otherwise its UTM zone."""
-        return metric_crs(self.folder.reference)[0]
+    position: tuple[float, float]
+    centre: tuple[float, float]
+    footprint: NDArray[np.float64]
+    shift: NDArray[np.float64]
+    yaw: float
+    coarse: Step
+    fine: Step
+    agreement: float
+    iterations: int
+    alarm: bool
+    reason: str
 
-    @cached_property
-    def map_pixel(self) -> float:
-        """Side of a map pixel in metres."""
-        return metric_crs(self.folder.reference)[1]
 
-    def camera(self, metadata: dict[str, Any]) -> Camera:
-        """From camera.json if there is one, otherwise from the frame's EXIF."""
-        if self.folder.camera:
-            return camera_from_file(self.folder.camera)
-        return camera_from_metadata(metadata)
+@dataclass(frozen=True)
+class View:
+    """One frame with all that is known of it, ready to be rectified anywhere."""
 
-    def position(self, record: PoseRecord) -> tuple[float, float]:
-        """Recorded (east, north) in the working CRS."""
-        if not record.has_position:
+    site: Site
+    image: NDArray[np.float32]
+    camera: Camera
+    record: PoseRecord
+    settings: FlightSettings
+
+    def footprint(self, at: tuple[float, float]) -> tuple[Pose, float, NDArray[np.float64]]:
+        """Pose, ground level, and the picture's corners if the camera is at (east, north)."""
+        pose, level = self.site.pose(self.record, *at)
+        return pose, level, self.camera.footprint(pose, level)
+
+    def rectified(self, at: tuple[float, float], grid: Grid) -> NDArray[np.float32]:
+        """The frame on ``grid`` if the camera is at (east, north)."""
+        pose, level = self.site.pose(self.record, *at)
+        heights = self.site.ground(grid)
+        if heights is None:
+            return rectify(self.image, self.camera, pose, grid, level)
+        patch = rectify(self.image, self.camera, pose, grid, heights)
+        patch[occluded(heights, grid, pose)] = np.nan
+        return patch
+
+    def step(self, at: tuple[float, float], grid: Grid, reach: int, suns: Suns | None) -> Step:
+        """Rectify on ``grid`` and match within ``reach`` px."""
+        rows, cols = grid.shape
+        around = grid.window(-reach, -reach, (rows + 2 * reach, cols + 2 * reach))
+        window = read_window(self.site.folder.reference, around)
+        covered = float(np.isfinite(window).mean())
+        if covered < MAP_SHARE:
             raise InputError(
-                f"no position for {record.frame}; add a row to camera_pose.csv or "
-                "flight_log.csv, or keep the image's EXIF"
+                f"off the map: the map holds {covered:.0%} of the area searched; "
+                "give a map that covers the flight"
             )
-        known = record.values
-        if {"easting", "northing"} <= known.keys():
-            return known["easting"], known["northing"]
-        to_map = Transformer.from_crs(4326, self.crs, always_xy=True)
-        east, north = to_map.transform(known["longitude"], known["latitude"])
-        return float(east), float(north)
-
-    def ground(self, grid: Grid) -> NDArray[np.float32] | None:
-        """Heights of the elevation model on a grid, gaps at its mean; None without one."""
-        if self.folder.dem is None:
-            return None
-        heights = read_window(self.folder.dem, grid)
-        if np.isnan(heights).all():
-            if np.isnan(read_window(self.folder.reference, grid)).all():
-                raise InputError(
-                    "off the map: neither map nor DEM covers the frame; "
-                    "give a map that covers the flight"
-                )
-            raise InputError(
-                f"{Path(self.folder.dem).name} does not cover the frame; give a DEM that does"
-            )
-        return np.where(np.isnan(heights), np.nanmean(heights), heights)
-
-    def pose(self, record: PoseRecord, east: float, north: float) -> tuple[Pose, float]:
-        """The believed pose, and the height of level ground under it.
-
-        Without an elevation model heights count from the ground.
-        """
-        known = record.values
-        around = self.ground(Grid.centred(east, north, (50.0, 50.0), (9, 9), self.crs))
-        if around is not None and "altitude" in known:
-            level, height = float(around.mean()), known["altitude"]
-        elif "height_above_ground" in known:
-            level = 0.0 if around is None else float(around.mean())
-            height = level + known["height_above_ground"]
-        else:
-            raise InputError(
-                f"no height above ground for {record.frame}; add dem.tif, or a column "
-                "height_above_ground_m to flight_log.csv"
-            )
-        if height <= level:
-            raise InputError(
-                f"{record.frame} lies at {height:.0f} m, not above the ground at {level:.0f} m; "
-                "correct its altitude"
-            )
-        position = (east, north, height)
-        if {"omega", "phi", "kappa"} <= known.keys():
-            angles = (known["omega"], known["phi"], known["kappa"])
-            return Pose.from_omega_phi_kappa(position, *angles), level
-        if "yaw" not in known:
-            raise InputError(f"no yaw for {record.frame}; add flight_yaw_deg to flight_log.csv")
-        tilt = known.get("pitch", 0.0), known.get("roll", 0.0)
-        return Pose.from_yaw_pitch_roll(position, known["yaw"], *tilt), level
+        patch = self.rectified(at, grid)
+        result = match(window, patch, self.settings.method, suns, max_shift=reach)
+        return Step(grid, patch, window, result)
 
 
 def localise_frame(
@@ -172,38 +165,133 @@ def localise_frame(
     believed: tuple[float, float],
     settings: FlightSettings,
 ) -> Fix:
-    """Rectify one frame around its believed position and find it on the map.
+    """Find one frame on the map around its believed position.
 
     Raises
     ------
     InputError
         With the reason, if the frame cannot be placed.
     """
-    pose, level = site.pose(record, *believed)
     camera = site.camera(metadata)
+    return localise_image(site, partial(read_grey, path), camera, record, believed, settings)
+
+
+def localise_image(
+    site: Site,
+    image: NDArray[np.float32] | Callable[[], NDArray[np.float32]],
+    camera: Camera,
+    record: PoseRecord,
+    believed: tuple[float, float],
+    settings: FlightSettings,
+) -> Fix:
+    """The same for a picture (rows, columns) at hand, or a function that reads it."""
+    pose, level = site.pose(record, *believed)
     corners = camera.footprint(pose, level)
+    pixel, short_side = _fine_pixel(site, camera, corners, settings)
+    suns = site.suns(record.time, *believed)
+    view = View(site, image() if callable(image) else image, camera, record, settings)
+    coarse = _search(view, believed, corners, pixel, short_side, suns)
+    first = located(believed, coarse.result.shift, coarse.grid.pixel_size)
+    reach = max(int(np.ceil(FINE_REACH * short_side / pixel)), 4)
+    settled, fine, iterations, ends = _settle(view, first, pixel, reach, suns)
+    parts = agreement(fine.window, fine.patch, fine.result.shift, settings.method)
+    position = located(settled, parts.shift, fine.grid.pixel_size)
+    pose, level, footprint = view.footprint(position)
+    reason = _reason(coarse, parts.share, ends, settings)
+    moved = np.subtract(position, believed) / pixel
+    return Fix(
+        position=position,
+        centre=_centre(camera, pose, level),
+        footprint=footprint,
+        shift=np.array([-moved[1], moved[0]]),
+        yaw=pose.heading,
+        coarse=coarse,
+        fine=fine,
+        agreement=parts.share,
+        iterations=iterations,
+        alarm=bool(reason),
+        reason=reason,
+    )
+
+
+def _fine_pixel(
+    site: Site, camera: Camera, corners: NDArray[np.float64], settings: FlightSettings
+) -> tuple[float, float]:
+    """Pixel of the fine rectification, and the footprint's shorter side, metres."""
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)
-    pixel = max(site.map_pixel, float(sides.min()) / settings.largest_patch_px)
-    grid = inscribed_grid(corners, pixel, site.crs, largest=settings.largest_patch_px)
-    if min(grid.shape) < 16:
+    short = float(sides.min())
+    own = short / min(camera.shape)
+    pixel = max(site.map_pixel, own, short / settings.largest_patch_px)
+    if short / pixel < SMALLEST_PX:
         raise InputError(
-            f"the frame covers only {grid.shape[0]} map pixels; "
+            f"the frame covers only {short / pixel:.0f} map pixels; "
             f"use a map sharper than {pixel:.2g} m"
         )
-    sigma = settings.prior_error_m or float(sides.min()) / 10
-    margin = int(np.ceil(3 * sigma / pixel))
-    side = grid.shape[0] + 2 * margin
-    window = read_window(site.folder.reference, grid.window(-margin, -margin, (side, side)))
-    covered = float(np.isfinite(window).mean())
-    if covered < MAP_SHARE:
+    return pixel, short
+
+
+def _search(
+    view: View,
+    believed: tuple[float, float],
+    corners: NDArray[np.float64],
+    pixel: float,
+    short_side: float,
+    suns: Suns | None,
+) -> Step:
+    """The whole footprint, coarsely, in all of the prior's reach."""
+    sigma = view.settings.prior_error_m or short_side / 10
+    extent = float(np.ptp(corners, axis=0).max())
+    coarse = pixel * max(1, int(np.ceil(extent / pixel / SEARCH_PX)))
+    reach = max(int(np.ceil(SEARCH_SIGMAS * sigma / coarse)), 4)
+    if extent / coarse + 2 * reach > LARGEST_SEARCH_PX:
         raise InputError(
-            f"off the map: the map holds {covered:.0%} of the area searched; "
-            "give a map that covers the flight"
+            f"a prior error of {sigma:g} m makes a search area beyond {LARGEST_SEARCH_PX} px; "
+            "lower prior_error_m"
         )
-    heights = site.ground(grid)
-    patch = rectify(read_grey(path), camera, pose, grid, level if heights is None else heights)
-    result = match(window, patch, settings.method, max_shift=margin)
-    candidates = result.surface.values.size
-    alarm = is_alarm(result.quality, candidates, false_match_rate=settings.false_match_rate)
-    position = located(believed, result.shift, grid.pixel_size)
-    return Fix(position, grid, patch, window, result, alarm)
+    return view.step(believed, bounding_grid(corners, coarse, view.site.crs), reach, suns)
+
+
+def _settle(
+    view: View, at: tuple[float, float], pixel: float, reach: int, suns: Suns | None
+) -> tuple[tuple[float, float], Step, int, bool]:
+    """Rectify and match in turn until the shift is below a tenth of a pixel.
+
+    From the fourth step on only half of each is taken, lest two near peaks take turns.
+    Returns the position that the last step started from, that step, how many there were,
+    and whether they ended near each other and not far from where they began.
+    """
+    start, step = at, None
+    for count in range(1, ITERATIONS + 1):
+        _, _, corners = view.footprint(at)
+        grid = central_grid(corners, pixel, view.site.crs)
+        step = view.step(at, grid, reach, suns)
+        shift = step.result.shift
+        if np.hypot(*shift) < SETTLED_PX:
+            return at, step, count, True
+        if count == ITERATIONS or np.hypot(*np.subtract(at, start)) > 2 * reach * pixel:
+            break
+        at = located(at, shift if count < DAMPED else shift / 2, grid.pixel_size)
+    assert step is not None
+    return at, step, count, bool(np.hypot(*step.result.shift) < reach / 2)
+
+
+def _reason(coarse: Step, agreed: float, settled: bool, settings: FlightSettings) -> str:
+    """Why the fix should not be believed, in words; empty if it should."""
+    surface = coarse.result.surface
+    candidates = surface.values.size * surface.step**2
+    rate = settings.false_match_rate
+    if is_alarm(coarse.result.quality, candidates, false_match_rate=rate):
+        return "no trustworthy match"
+    if agreed < LEAST:
+        return f"only {agreed:.0%} of the frame's parts agree on the place"
+    if not settled:
+        return "position and rectification do not settle"
+    return ""
+
+
+def _centre(camera: Camera, pose: Pose, level: float) -> tuple[float, float]:
+    """Ground point (east, north) under the picture's middle pixel."""
+    rows, cols = camera.shape
+    ray = camera.rays((rows - 1) / 2, (cols - 1) / 2, pose)
+    east, north = pose.position[:2] + ray[:2] * ((pose.height - level) / -ray[2])
+    return float(east), float(north)

@@ -108,6 +108,16 @@ class Flight(Parameters):
     seed: int
     largest_patch_px: int = Field(ge=32)
     false_match_rate: float = Field(gt=0, lt=1)
+    calibration: str
+    pictures: int = Field(ge=0)
+
+
+class FlightRobustness(Parameters):
+    """How a flight's frames are damaged, kind by kind, and what counts as placed."""
+
+    levels: dict[str, list[float]]
+    tolerance_m: float = Field(gt=0)
+    every: int = Field(ge=1)
 
 
 class LightGrid(Parameters):

@@ -2,6 +2,7 @@
 
 from pcnav_study.scene.albedo import fractal_albedo
 from pcnav_study.scene.camera import Camera, Pose
+from pcnav_study.scene.distortion import Distortion
 from pcnav_study.scene.flight import fly, waypoints
 from pcnav_study.scene.grid import Grid
 from pcnav_study.scene.relief import fractal_relief, jacksboro, slope_aspect
@@ -11,6 +12,7 @@ from pcnav_study.scene.sun import SunPosition, azimuth_difference, sun_position
 
 __all__ = [
     "Camera",
+    "Distortion",
     "Grid",
     "Pose",
     "SunPosition",

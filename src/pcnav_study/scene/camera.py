@@ -1,4 +1,4 @@
-"""The pinhole camera and its pose.
+"""The camera and its pose.
 
 Camera axes are photogrammetry's: x to the right of the image, y to its top, z out of
 its back, so that the scene lies at negative z. Pixel (0, 0) is the centre of the first
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from pcnav_study.errors import InputError
+from pcnav_study.scene.distortion import NO_DISTORTION, Distortion
 
 Array = NDArray[np.float64]
 
@@ -61,6 +62,11 @@ class Pose:
         """(east, north, height) in metres."""
         return np.array([self.east, self.north, self.height])
 
+    @property
+    def heading(self) -> float:
+        """Direction on the ground of the image's top, degrees clockwise from north."""
+        return float(np.degrees(np.arctan2(self.rotation[0, 1], self.rotation[1, 1])) % 360)
+
     def moved(self, east: float, north: float) -> Pose:
         """The same attitude and height, displaced by metres."""
         return Pose(self.east + east, self.north + north, self.height, self.rotation)
@@ -68,7 +74,7 @@ class Pose:
 
 @dataclass(frozen=True)
 class Camera:
-    """A distortion-free pinhole camera.
+    """A pinhole camera, with Brown's distortion where its lens has any.
 
     Parameters
     ----------
@@ -78,11 +84,14 @@ class Camera:
         Focal length in pixels.
     principal_point : tuple of float
         Offset (row, column) in pixels of the principal point from the image's middle.
+    distortion : Distortion
+        Of the lens; none by default.
     """
 
     shape: tuple[int, int]
     focal_px: float
     principal_point: tuple[float, float] = (0.0, 0.0)
+    distortion: Distortion = NO_DISTORTION
 
     def __post_init__(self) -> None:
         if min(self.shape) < 1 or not self.focal_px > 0:
@@ -108,18 +117,23 @@ class Camera:
     def project(self, points: Array, pose: Pose) -> tuple[Array, Array]:
         """(row, column) of world points (..., 3); NaN for points behind the camera."""
         x, y, z = np.moveaxis((points - pose.position) @ pose.rotation, -1, 0)
-        scale = np.where(z < 0, self.focal_px / np.where(z < 0, -z, 1.0), np.nan)
+        depth = np.where(z < 0, -z, np.nan)
+        right, down = x / depth, -y / depth
+        if any(self.distortion):
+            right, down = self.distortion.apply(right, down)
         row0, col0 = self.centre
-        return row0 - scale * y, col0 + scale * x
+        return row0 + self.focal_px * down, col0 + self.focal_px * right
 
     def rays(self, rows: ArrayLike, cols: ArrayLike, pose: Pose) -> Array:
         """World directions (..., 3), not normalised, seen at image points."""
         row0, col0 = self.centre
-        right, up = np.broadcast_arrays(
+        right, down = np.broadcast_arrays(
             (np.asarray(cols, float) - col0) / self.focal_px,
-            (row0 - np.asarray(rows, float)) / self.focal_px,
+            (np.asarray(rows, float) - row0) / self.focal_px,
         )
-        inside = np.stack([right, up, np.full(right.shape, -1.0)], axis=-1)
+        if any(self.distortion):
+            right, down = self.distortion.remove(right, down)
+        inside = np.stack([right, -down, np.full(right.shape, -1.0)], axis=-1)
         directions: Array = inside @ pose.rotation.T
         return directions
 
@@ -140,7 +154,7 @@ class Camera:
             raise InputError(
                 f"camera at {pose.height:.0f} m is not above ground {ground_height:.0f} m"
             )
-        if np.any(rays[:, 2] >= -1e-6):
+        if not np.all(rays[:, 2] < -1e-6):
             raise InputError("the camera sees the horizon; only downward views can be rectified")
         ground: Array = pose.position[:2] + rays[:, :2] * (drop / -rays[:, 2])[:, None]
         return ground

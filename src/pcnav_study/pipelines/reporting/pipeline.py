@@ -9,6 +9,7 @@ from pcnav_study.pipelines.reporting.nodes import report, site
 NOTEBOOKS = (
     ("walkthroughs", "image_formation", ("elevation", "suns")),
     ("walkthroughs", "phase_correlation", ("elevation",)),
+    ("walkthroughs", "rectification", ("elevation", "suns", "reference_map", "frames")),
     (
         "reports",
         "matches",
