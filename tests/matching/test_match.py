@@ -1,5 +1,6 @@
 """What every method owes its caller: the sign, the sizes, the types, the bad input."""
 
+import pickle
 import warnings
 
 import numpy as np
@@ -186,3 +187,13 @@ def test_any_method_takes_any_estimator(method, subpixel, make_pair):
     pair = make_pair()
     found = match(pair.reference, pair.moving, method, subpixel=subpixel)
     assert np.hypot(*(found.shift - pair.shift)) < 0.03
+
+
+def test_result_pickles_without_the_images(make_pair):
+    pair = make_pair()
+    result = match(pair.reference, pair.moving, "ncc")
+    packed = pickle.dumps(result)
+    again = pickle.loads(packed)
+    np.testing.assert_array_equal(again.shift, result.shift)
+    assert again.quality == result.quality
+    assert len(packed) < pair.reference.nbytes

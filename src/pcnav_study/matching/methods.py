@@ -7,8 +7,6 @@ and give it a name in ``METHODS``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -40,7 +38,6 @@ METHODS: dict[str, Matcher] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
 class MatchResult:
     """One match.
 
@@ -53,17 +50,47 @@ class MatchResult:
         Dirac-delta quality, 0 to 1: the cosine similarity of the phase-correlation
         surface with a Dirac delta at that shift. For ``pc`` and ``pc-abs`` of their own
         surface; otherwise after the sectors' signs are repaired, so that suns of any
-        difference compare.
+        difference compare. Measured when first asked for, where the method has no need
+        of it itself.
     surface : Surface
         The method's score of every candidate shift.
     method : str
         A name in ``METHODS``.
     """
 
-    shift: NDArray[np.float64]
-    quality: float
-    surface: Surface
-    method: str
+    __slots__ = ("_pair", "_quality", "method", "shift", "surface")
+
+    def __init__(
+        self,
+        shift: NDArray[np.float64],
+        quality: float | None,
+        surface: Surface,
+        method: str,
+        pair: Pair | None = None,
+    ) -> None:
+        self.shift = shift
+        self.surface = surface
+        self.method = method
+        self._quality = quality
+        self._pair = pair
+
+    @property
+    def quality(self) -> float:
+        """Dirac-delta quality, 0 to 1."""
+        if self._quality is None:
+            self._quality = 0.0 if self._pair is None else quality_at(self._pair, self.shift)
+            self._pair = None
+        return self._quality
+
+    def __reduce__(self) -> tuple[type[MatchResult], tuple[object, ...]]:
+        """Pickle the answer, not the images."""
+        return MatchResult, (self.shift, self.quality, self.surface, self.method)
+
+    def __repr__(self) -> str:
+        row, col = self.shift
+        return (
+            f"MatchResult({self.method}: shift=({row:.3f}, {col:.3f}), quality={self.quality:.3f})"
+        )
 
 
 def match(
@@ -118,6 +145,4 @@ def match(
         shift = surface.best_shift()
         if subpixel is not None:
             shift, _ = refined(pair, shift)
-    if quality is None:
-        quality = quality_at(pair, shift)
-    return MatchResult(shift, quality, surface, method)
+    return MatchResult(shift, quality, surface, method, pair if quality is None else None)

@@ -33,14 +33,15 @@ def _unmasked(roaming: Roaming) -> NDArray[Any]:
     reference = roaming.pair.reference
     spectrum, inverse = reference.kept(("ncc", roaming.shape), lambda: _reference_part(roaming))
     template = roaming.pair.moving.centred()[roaming.cut]
-    template = template - template.mean()
+    template = template - np.add.reduce(template, axis=None) / np.float32(template.size)
     energy = float(np.vdot(template, template))
     if energy == 0:
         return np.zeros(roaming.size)
     score = roaming.correlated(spectrum, roaming.forward(template))
-    score = score * inverse
-    score *= np.float32(energy**-0.5)
-    return np.clip(score, -1.0, 1.0, out=score)
+    inverse = inverse * np.float32(energy**-0.5)
+    inverse *= score
+    np.minimum(inverse, 1.0, out=inverse)
+    return np.maximum(inverse, -1.0, out=inverse)
 
 
 def _reference_part(roaming: Roaming) -> tuple[NDArray[Any], NDArray[np.float32]]:

@@ -149,7 +149,8 @@ def _stacked(pair: Pair, one: Slices, other: Slices) -> NDArray[np.float32]:
         image = window.values[cut]
         if window.valid is not None:
             image = np.where(window.valid[cut], image, window.mean)
-        np.subtract(image, image.dtype.type(image.mean()), out=out, casting="same_kind")
+        mean = image.dtype.type(np.add.reduce(image, axis=None) / image.size)
+        np.subtract(image, mean, out=out, casting="same_kind")
         if not window.is_tame:
             out /= np.float32(max(float(np.abs(out).max()), 1e-37))
         out *= weight

@@ -61,7 +61,7 @@ def summit(
         for omega in overlap.band[:2]
     )
     surfaces = np.matmul(np.matmul(rows, overlap.band.bank * overlap.phasors), cols.T).real
-    total = energy(surfaces, preference)
+    total = robust_energy(surfaces, preference)
     row, col = divmod(int(total.argmax()), total.shape[1])
     residual = np.array([row - around, col - around]) + quadratic_peak(total, (row, col))
     return residual, surfaces[:, row, col]
@@ -72,15 +72,16 @@ def preference_of(pair: Pair) -> float:
     return PREFERENCE / (2 - PREFERENCE) if min(pair.moving.shape) >= LARGE else 0.0
 
 
-def energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
-    """Sum of the squared surfaces (sectors, rows, columns), a little less of the negative.
+def robust_energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
+    """Sum over the sectors (sectors, rows, columns) of the modulus to the power 3/2.
 
-    Most pairs meet under suns that flip no sector, or few: it breaks ties, no more.
+    A positive surface counts ``preference`` more: most pairs meet under suns that flip few
+    sectors. Squares would let one strong sector, where the light is least linear, decide.
     """
-    squares = np.abs(surfaces)
-    squares += np.float32(preference) * surfaces
-    squares *= squares
-    total: NDArray[np.float32] = squares.sum(axis=0)
+    modulus = np.abs(surfaces)
+    modulus += np.float32(preference) * surfaces
+    modulus *= np.sqrt(modulus)
+    total: NDArray[np.float32] = modulus.sum(axis=0)
     return total
 
 

@@ -23,7 +23,7 @@ from pcnav_study.matching.orientation import orientation_spectrum
 from pcnav_study.matching.overlap import SECTORS, sector_of
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
-from pcnav_study.matching.refine import energy, preference_of, refined
+from pcnav_study.matching.refine import preference_of, refined
 from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
@@ -69,6 +69,15 @@ def score_surface(pair: Pair) -> Surface:
     return search.surface(pair, score)
 
 
+def energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
+    """Sum of the squared surfaces (sectors, rows, columns), a little more of the positive."""
+    modulus = np.abs(surfaces)
+    modulus += np.float32(preference) * surfaces
+    modulus *= modulus
+    total: NDArray[np.float32] = modulus.sum(axis=0)
+    return total
+
+
 def step_of(shape: tuple[int, int]) -> int:
     """Spacing of the search grid, px: small windows need their whole band."""
     side = min(shape)
@@ -110,7 +119,8 @@ def _orientation_product(pair: Pair, search: Search, out: sp.Spectrum) -> None:
 def _in_scatter(surface: NDArray[np.float32]) -> NDArray[np.float32]:
     """The surface in units of its own standard deviation, less its mean."""
     flat = surface.ravel()
-    mean = flat.mean()
-    scatter = float(np.dot(flat, flat)) / flat.size - float(mean) ** 2
-    scaled: NDArray[np.float32] = (surface - mean) / np.float32(max(scatter, 1e-36) ** 0.5)
+    mean = float(np.add.reduce(flat)) / flat.size
+    scatter = float(np.dot(flat, flat)) / flat.size - mean**2
+    scaled: NDArray[np.float32] = surface - np.float32(mean)
+    scaled *= np.float32(max(scatter, 1e-36) ** -0.5)
     return scaled

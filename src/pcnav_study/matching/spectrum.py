@@ -66,10 +66,10 @@ def low_spectrum(image: NDArray[np.float32], shape: tuple[int, int], step: int) 
     Returns (rows // step, columns // step // 2 + 1); the same as ``rfft2`` for step 1.
     """
     rows, cols = shape
-    half = fft.rfft(image, cols, axis=-1)
     if step == 1:
-        full: Spectrum = fft.fft(half, rows, axis=-2, overwrite_x=True)
+        full: Spectrum = fft.rfft2(image, shape)
         return full
+    half = fft.rfft(image, cols, axis=-1)
     high = fft.fft(half[..., : cols // step // 2 + 1], rows, axis=-2)
     n = rows // step
     low: Spectrum = np.concatenate(

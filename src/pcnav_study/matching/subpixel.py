@@ -24,6 +24,7 @@ from pcnav_study.matching.overlap import Overlap
 
 Shift = NDArray[np.float64]
 Estimator = Callable[[Overlap, NDArray[np.float32], Shift], Shift]
+ROUNDS = 2  # of reweighting; a third moves the answer by under 0.002 px
 LARGEST = 1.0  # px, how far an estimate may leave its first guess
 
 
@@ -35,7 +36,7 @@ def plane_fit(overlap: Overlap, weight: NDArray[np.float32], guess: Shift) -> Sh
     """
     shift = guess
     rows, cols = (_powers(w) for w in (overlap.band.omega_rows, overlap.band.omega_cols))
-    for _ in range(2):
+    for _ in range(ROUNDS):
         turned = overlap.turned(shift)
         turned *= weight
         real, imaginary = turned.real.copy(), turned.imag.copy()

@@ -41,7 +41,7 @@ class Window:
         self.low, self.high, self.mean = 0.0, 0.0, 0.0
         if inside.size:
             self.low, self.high = float(inside.min()), float(inside.max())
-            self.mean = float(inside.mean(dtype=None if valid is None else np.float64))
+            self.mean = float(np.add.reduce(inside, axis=None)) / inside.size
         self._store: dict[Hashable, Any] = {}
 
     @property
