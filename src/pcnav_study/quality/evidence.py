@@ -144,7 +144,7 @@ def _phasors(
         cut = slice(row, row + rows), slice(col, col + cols)
         image = window.values[cut]
         if window.valid is not None:
-            weight = weight * window.kept("feather", lambda w=window: sp.feather(w))[cut]
+            weight = np.multiply(weight, _feathered(window)[cut])
             image = np.where(window.valid[cut], image, window.mean)
         mean = image.dtype.type(np.add.reduce(image, axis=None) / image.size)
         np.subtract(image, mean, out=out, casting="same_kind")
@@ -158,6 +158,10 @@ def _phasors(
     low: NDArray[np.complex64] = np.concatenate((product[rows - high :], product[: high + 1]))
     sp.whitened(low)
     return low if low[high].any() else None
+
+
+def _feathered(window: Window) -> NDArray[np.float32]:
+    return window.kept("feather", lambda: sp.feather(window))
 
 
 class _Tables(NamedTuple):

@@ -1,6 +1,6 @@
 """What quality unrelated windows reach: the null of the sectors' Dirac-delta quality.
 
-The quality of `matching.refine.delta_quality` is q = sum_k \\|S_k\\|, where S_k is the
+The quality of `matching.refine.delta_quality` is q = sum_k |S_k|, where S_k is the
 low-passed surface of angular sector k at the shift and all weights sum to one. Unrelated
 windows have uniform phases, so S_k is nearly normal with variance
 
@@ -14,7 +14,7 @@ two unrelated pictures by c(rho)**2. A sum of absolute normals has no closed law
 density is the convolution of half-normal ones. The best of many shifts is bounded by
 their union.
 
-Every \\|S_k\\| has a positive mean, so q has a floor that falls with the window's side. The
+Every |S_k| has a positive mean, so q has a floor that falls with the window's side. The
 number of candidates alone, as in `dirac.null_level`, does not tell it: a search on a coarse
 grid has few candidates, but its windows are as large as ever.
 
@@ -66,7 +66,9 @@ def _spread(shape: tuple[int, int], kind: Taper) -> Array:
     for down in range(-NEIGHBOURS, NEIGHBOURS + 1):
         for right in range(-NEIGHBOURS, NEIGHBOURS + 1):
             alike = phasor_correlation(float(abs(window[down, right] / window[0, 0]))) ** 2
-            one = bank[:, max(-down, 0) : rows - max(down, 0), max(-right, 0) : cols - max(right, 0)]
+            one = bank[
+                :, max(-down, 0) : rows - max(down, 0), max(-right, 0) : cols - max(right, 0)
+            ]
             two = bank[:, max(down, 0) : rows + min(down, 0), max(right, 0) : cols + min(right, 0)]
             variance += 0.5 * alike * np.einsum("kij,kij->k", one, two)
     spread: Array = np.sqrt(variance)
@@ -95,6 +97,12 @@ def _tail_table(shape: tuple[int, int], kind: Taper | None) -> tuple[Array, Arra
     values = grid + (np.count_nonzero(spread) - 1) * 0.5 * top / CELLS
     tail: Array = np.cumsum(density[::-1])[::-1]
     return values, tail
+
+
+def density(shape: tuple[int, int], kind: Taper | None = None) -> tuple[Array, Array]:
+    """Qualities, and the probability density of each at one shift of unrelated windows."""
+    values, tail = _tail_table(shape, kind)
+    return values, -np.gradient(tail, values)
 
 
 def null_tail(

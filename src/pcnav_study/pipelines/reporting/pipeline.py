@@ -11,6 +11,7 @@ from pcnav_study.pipelines.reporting.nodes import build_site, render_page, run_n
 NOTEBOOKS = (
     ("walkthroughs", "image_formation", ("elevation", "suns")),
     ("walkthroughs", "phase_correlation", ("elevation",)),
+    ("walkthroughs", "dirac_delta", ("elevation",)),
     (
         "reports",
         "matches",
@@ -20,6 +21,11 @@ NOTEBOOKS = (
             *(f"{n}.quality_table" for n in NAMESPACES),
             *(f"{n}.surfaces" for n in NAMESPACES),
         ),
+    ),
+    (
+        "reports",
+        "quality",
+        ("quality_cases", "quality_calibration", "quality_measures", "quality_mistakes"),
     ),
     ("reports", "changing_light", ("light_table", "sweep_table", "break_points")),
 )
