@@ -46,9 +46,16 @@ def doubled_orientation(window: Window, step: int) -> NDArray[np.float32]:
 
 
 def orientation_spectrum(window: Window, shape: tuple[int, int], step: int) -> sp.Spectrum:
-    """Half-plane spectra (2, rows // step, columns // (2 step) + 1) of the doubled orientation."""
-    grid = (shape[0] // step, shape[1] // step)
-    return sp.low_spectrum(doubled_orientation(window, step), grid, 1)
+    """Half-plane spectra (2, rows // step, columns // (2 step) + 1) of the doubled orientation.
+
+    Orientation is taken on a grid twice as fine and averaged: sampling it alone would
+    fold its noise into the band.
+    """
+    fine = max(step // 2, 1)
+    field = doubled_orientation(window, fine)
+    if fine < step:
+        field = np.stack([_means(part, step // fine, step // fine) for part in field])
+    return sp.low_spectrum(field, (shape[0] // step, shape[1] // step), 1)
 
 
 def _means(image: NDArray[np.float32], size: int, step: int) -> NDArray[np.float32]:

@@ -19,8 +19,8 @@ from pcnav_study.matching.windows import SMALLEST, Window
 
 Slices = tuple[slice, slice]
 EDGE = 0.36  # cycles/px, the highest frequency kept along either axis
-LONGEST = 320  # px per side of a crop; shading, not the number of pixels, limits beyond it
-HARMONICS = 80  # kept along an axis, at most
+LONGEST = 256  # px per side of a crop; shading, not the number of pixels, limits beyond it
+HARMONICS = 56  # kept along an axis, at most
 SMALL = 80  # px; a smaller crop cannot afford to lose its rim to the taper
 SEARCH_BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass of the search
 FIT_BAND = 0.3  # cycles/px, the same of the sub-pixel fit
