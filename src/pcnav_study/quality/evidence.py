@@ -3,6 +3,11 @@
 A near miss keeps much of the quality, because every sector's surface is a ridge across its
 own direction. What it loses is agreement: the ridges no longer cross at the shift. So the
 middle of both windows is looked at once more, at the shift and around it.
+
+Reflectance keeps its sign under every sun and rules the low frequencies; shading turns its
+sign and rules the high ones. Where both are in view a sector's two parts cancel at the true
+shift, and its summit lies beside it. Every sector is therefore seen in two bands, each with
+a sign of its own.
 """
 
 from __future__ import annotations
@@ -15,7 +20,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from pcnav_study.matching import spectrum as sp
-from pcnav_study.matching.overlap import EDGE, SECTORS, Band, band_of
+from pcnav_study.matching.overlap import SECTORS, Band, band_of
 from pcnav_study.matching.pair import Pair
 from pcnav_study.matching.refine import quality_at
 from pcnav_study.matching.surface import Surface
@@ -24,6 +29,7 @@ from pcnav_study.quality.null import expected_null
 
 AROUND = (-5, -3, -2, -1, 0, 1, 2, 3, 5)  # px, where around the shift energy is looked at
 SIDES = (48, 128)  # px, the smallest and the largest middle looked at
+RING = 0.17  # cycles/px, where each sector is cut into a low and a high band
 APART = 4  # px, from where on another peak is another place
 
 Shift = NDArray[np.float64]
@@ -135,7 +141,7 @@ def _middle(
 def _phasors(
     reference: Window, moving: Window, cuts: list[tuple[int, int, int]]
 ) -> NDArray[np.complex64] | None:
-    """Unit phasors of the middle's cross-power spectrum up to ``EDGE``; None without texture."""
+    """Unit phasors of the middle's cross-power spectrum over the band of `matching.overlap`; None without texture."""
     (r_row, m_row, rows), (r_col, m_col, cols) = cuts
     both = np.empty((2, rows, cols), np.float32)
     weight = sp.taper((rows, cols), ("tukey", 0.5))
@@ -151,7 +157,8 @@ def _phasors(
         if not window.is_tame:
             out /= np.float32(max(float(np.abs(out).max()), 1e-37))
     both *= weight
-    high, wide = (min(int(EDGE * n), (n - 1) // 2) for n in (rows, cols))
+    omega_rows, omega_cols = band_of((rows, cols))[:2]
+    high, wide = len(omega_rows) // 2, len(omega_cols) - 1
     full = fft.fft(fft.rfft(both, axis=-1)[..., : wide + 1], axis=-2)
     product = np.conj(full[1])
     product *= full[0]
@@ -166,6 +173,7 @@ def _feathered(window: Window) -> NDArray[np.float32]:
 
 class _Tables(NamedTuple):
     band: Band
+    bank: NDArray[np.float32]
     slope: NDArray[np.float32]
     rows: NDArray[np.complex64]
     cols: NDArray[np.complex64]
@@ -175,27 +183,29 @@ class _Tables(NamedTuple):
 def _tables(shape: tuple[int, int]) -> _Tables:
     """What `_local` needs of a shape: the bank, its slopes, and the waves around a shift."""
     band = band_of(shape)
-    flat = band.bank.reshape(SECTORS, -1)
-    direction = (np.arange(SECTORS) + 0.5) * np.pi / SECTORS
     rows, cols = np.meshgrid(band.omega_rows, band.omega_cols, indexing="ij")
+    low = np.hypot(rows, cols) < 2 * np.pi * RING
+    bank = np.concatenate((band.bank * low, band.bank * ~low))
+    flat = bank.reshape(len(bank), -1)
+    direction = np.tile((np.arange(SECTORS) + 0.5) * np.pi / SECTORS, 2)
     along = np.outer(np.sin(direction), rows) + np.outer(np.cos(direction), cols)
     slope = flat * along / np.maximum((flat * along**2).sum(axis=1, keepdims=True), 1e-12)
     waves = [
         np.exp(1j * np.outer(AROUND, omega)).astype(np.complex64)
         for omega in (band.omega_rows, band.omega_cols)
     ]
-    return _Tables(band, slope.astype(np.float32), waves[0], waves[1].T.copy())
+    return _Tables(band, bank, slope.astype(np.float32), waves[0], waves[1].T.copy())
 
 
 def _local(
     phasors: NDArray[np.complex64], shape: tuple[int, int], residual: Shift
 ) -> tuple[float, float, float]:
     """Share, summit and pull at ``residual`` px from the phasors' whole-pixel shift."""
-    band, slope, rows, cols = _tables(shape)
+    band, bank, slope, rows, cols = _tables(shape)
     turned = phasors * np.exp(1j * residual[0] * band.omega_rows).astype(np.complex64)[:, None]
     turned *= np.exp(1j * residual[1] * band.omega_cols).astype(np.complex64)
     moves = slope @ turned.imag.ravel()
-    surfaces = np.matmul(np.matmul(rows, band.bank * turned), cols).real
+    surfaces = np.matmul(np.matmul(rows, bank * turned), cols).real
     energy = np.square(surfaces).sum(axis=0)
     middle = len(AROUND) // 2
     near = float(energy[middle - 1 : middle + 2, middle - 1 : middle + 2].sum())
