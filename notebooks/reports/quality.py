@@ -22,7 +22,6 @@ env = None
 versions = {}
 
 # %%
-import numpy as np
 from IPython.display import Markdown
 from sklearn.metrics import roc_curve
 
@@ -76,7 +75,8 @@ Markdown(
 
 # %%
 reliability_diagram(
-    reliability(cases["probability"].to_numpy(), right), report["expected_calibration_error"]["value"]
+    reliability(cases["probability"].to_numpy(), right),
+    report["expected_calibration_error"]["value"],
 )
 
 # %% [markdown]
@@ -129,12 +129,12 @@ for kind, entry in report["missed_by_kind"].items():
     )
 own = cases[(cases["kind"] == "match") & ~right & ~cases["alarm"]]["error_px"]
 if len(own):
-    lines += ["", f"The default method's own missed errors reach from {own.min():.2f} to {own.max():.2f} px."]
+    lines += [
+        "",
+        f"The default method's own missed errors reach from {own.min():.2f} to {own.max():.2f} px.",
+    ]
 Markdown("\n".join(lines))
 
 # %%
-if mistakes.sizes["case"]:
-    figure = mistake_pictures(mistakes)
-else:
-    figure = Markdown("It got no case wrong.")
-figure
+none = Markdown("It got no case wrong.")
+mistake_pictures(mistakes) if mistakes.sizes["case"] else none

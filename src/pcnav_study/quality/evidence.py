@@ -1,4 +1,4 @@
-"""What speaks for a shift: five numbers beside the Dirac-delta quality, at little cost.
+"""What speaks for a shift: six numbers beside the Dirac-delta quality, at little cost.
 
 A near miss keeps much of the quality, because every sector's surface is a ridge across its
 own direction. What it loses is agreement: the ridges no longer cross at the shift. So the
@@ -27,7 +27,7 @@ from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import SMALLEST, Window
 from pcnav_study.quality.null import expected_null
 
-AROUND = (-5, -3, -2, -1, 0, 1, 2, 3, 5)  # px, where around the shift energy is looked at
+AROUND = (-4, -2, -1, 0, 1, 2, 4)  # px, where around the shift energy is looked at
 SIDES = (48, 128)  # px, the smallest and the largest middle looked at
 RING = 0.17  # cycles/px, where each sector is cut into a low and a high band
 APART = 4  # px, from where on another peak is another place
@@ -50,6 +50,9 @@ class Evidence(NamedTuple):
         The sectors' energy at the shift over the highest around it, 0 to 1.
     pull : float
         How far the sectors, each along its own direction, would move the shift, px (RMS).
+    accord : float
+        Of the sectors' heights at the shift, the part left when each one's low and high band
+        are added with their signs, 0 to 1.
     rival : float
         Second peak of the score surface over the first, 0 to 1.
     """
@@ -59,11 +62,12 @@ class Evidence(NamedTuple):
     share: float
     summit: float
     pull: float
+    accord: float
     rival: float
 
 
 FARTHEST = 5.0  # px, the largest pull stated
-NOTHING = Evidence(0.0, 0.0, 0.0, 0.0, FARTHEST, 1.0)
+NOTHING = Evidence(0.0, 0.0, 0.0, 0.0, FARTHEST, 0.0, 1.0)
 
 
 def evidence_of(
@@ -99,9 +103,9 @@ def evidence_of(
         return NOTHING
     if quality is None:
         quality = quality_at(Pair(reference, moving, (1.0, 1.0)), shift)
-    share, summit, pull = _local(phasors, (cuts[0][2], cuts[1][2]), residual)
+    share, summit, pull, accord = _local(phasors, (cuts[0][2], cuts[1][2]), residual)
     null = expected_null(overlap)
-    return Evidence(quality, quality / null, share, summit, pull, rival_of(surface))
+    return Evidence(quality, quality / null, share, summit, pull, accord, rival_of(surface))
 
 
 def rival_of(surface: Surface) -> float:
@@ -141,7 +145,7 @@ def _middle(
 def _phasors(
     reference: Window, moving: Window, cuts: list[tuple[int, int, int]]
 ) -> NDArray[np.complex64] | None:
-    """Unit phasors of the middle's cross-power spectrum over the band of `matching.overlap`; None without texture."""
+    """Unit phasors of the middle's cross-power spectrum; None without texture."""
     (r_row, m_row, rows), (r_col, m_col, cols) = cuts
     both = np.empty((2, rows, cols), np.float32)
     weight = sp.taper((rows, cols), ("tukey", 0.5))
@@ -199,8 +203,8 @@ def _tables(shape: tuple[int, int]) -> _Tables:
 
 def _local(
     phasors: NDArray[np.complex64], shape: tuple[int, int], residual: Shift
-) -> tuple[float, float, float]:
-    """Share, summit and pull at ``residual`` px from the phasors' whole-pixel shift."""
+) -> tuple[float, float, float, float]:
+    """Share, summit, pull and accord at ``residual`` px from the phasors' whole-pixel shift."""
     band, bank, slope, rows, cols = _tables(shape)
     turned = phasors * np.exp(1j * residual[0] * band.omega_rows).astype(np.complex64)[:, None]
     turned *= np.exp(1j * residual[1] * band.omega_cols).astype(np.complex64)
@@ -212,8 +216,11 @@ def _local(
     heights = surfaces[:, middle, middle]
     highest, whole = float(energy.max()), float(energy.sum())
     pull = np.sqrt(float(moves @ moves) / max(float(heights @ heights), 1e-30))
+    together = np.abs(heights[:SECTORS] + heights[SECTORS:]).sum()
+    accord = float(together / max(float(np.abs(heights).sum()), 1e-30))
     return (
         near / max(whole, 1e-30),
         float(energy[middle, middle]) / max(highest, 1e-30),
         min(float(pull), FARTHEST),
+        accord,
     )
