@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pcnav_study.quality.dirac import null_level
-from pcnav_study.quality.null import sector_null_level
+from pcnav_study.quality.null import crowding, sector_null_level
 
 PLAIN = ("pc", "pc-abs")  # methods whose quality is that of one surface, without sectors
 
@@ -45,7 +45,7 @@ def unrelated_level(
     for side in window:
         searched *= 2 * (side // 4) + 1
     if method in PLAIN:
-        whole = window[0] * window[1]
+        whole = int(window[0] * window[1] / crowding(window, "hann"))
         return null_level(searched, false_match_rate=false_match_rate, whole=whole)
     smallest = (window[0] - window[0] // 4, window[1] - window[1] // 4)
     fitting = (smallest[0] // 4 * 4, smallest[1] // 4 * 4)

@@ -98,7 +98,7 @@ def fit(
     *,
     false_alarm_rate: float,
     radius_coverage: float = 0.95,
-    classes: int = 12,
+    classes: int = 24,
 ) -> Calibration:
     """Learn the ranking from one table and everything else from another.
 

@@ -76,6 +76,20 @@ def _spread(shape: tuple[int, int], kind: Taper) -> Array:
     return spread
 
 
+@lru_cache(maxsize=64)
+def crowding(shape: tuple[int, int], kind: Taper) -> float:
+    """How much more of an unrelated surface's energy lies at no shift than on average.
+
+    Phasors that a taper makes alike pile the energy up around the middle of the surface:
+    the sum of g over all differences of frequency.
+    """
+    window = fft.fft2(taper(shape, kind).astype(np.float64) ** 2)
+    rho = np.abs(window / window[0, 0])[: NEIGHBOURS + 1, : NEIGHBOURS + 1]
+    alike = np.vectorize(phasor_correlation)(rho) ** 2
+    twice = np.where(np.arange(NEIGHBOURS + 1) == 0, 1, 2)
+    return float(twice @ alike @ twice)
+
+
 def phasor_correlation(rho: float) -> float:
     """Correlation of the unit phasors of two circular normal variables of correlation ``rho``."""
     rho = min(rho, 1.0)

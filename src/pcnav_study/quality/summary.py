@@ -52,7 +52,7 @@ def summarise(tables: Sequence[pd.DataFrame], *, bin_deg: float = 15.0) -> pd.Da
     table = pd.concat(tables, ignore_index=True)
     middle = np.rint(table["sun_difference"] / bin_deg) * bin_deg
     rows = []
-    for (method, difference), group in table.groupby(["method", middle], sort=False):
+    for (method, difference), group in table.groupby(["method", middle]):
         n, good = len(group), int(group["correct"].sum())
         low, high = wilson(good, n)
         errors = group["error_px"]
