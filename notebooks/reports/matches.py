@@ -101,13 +101,13 @@ error_by_sun(tables, tolerance)
 
 # %%
 order = pairs["sun_difference"].to_series().sort_values(kind="stable").index
-match_pictures(pairs, surfaces, order[0], dy / dx)
+match_pictures(pairs, surfaces, tables, order[0], dy / dx)
 
 # %%
-match_pictures(pairs, surfaces, order[len(order) // 2], dy / dx)
+match_pictures(pairs, surfaces, tables, order[len(order) // 2], dy / dx)
 
 # %%
-match_pictures(pairs, surfaces, order[-1], dy / dx)
+match_pictures(pairs, surfaces, tables, order[-1], dy / dx)
 
 # %% [markdown]
 # > **[seed]** The paper calls phase correlation illumination-invariant. In its plain, signed form it

@@ -1,5 +1,29 @@
 """Controlled trials: every method on the same pairs, over everything that may break it."""
 
-from pcnav_study.experiments.cells import Cell, Task, break_points, judge, light_grid, sweep
+from pcnav_study.experiments.benchmark import benchmark
+from pcnav_study.experiments.cells import (
+    Cell,
+    Task,
+    break_points,
+    judge,
+    light_grid,
+    score,
+    sweep,
+)
+from pcnav_study.experiments.peers import PEERS, load_peers
+from pcnav_study.experiments.real import draw_registered, registered
 
-__all__ = ["Cell", "Task", "break_points", "judge", "light_grid", "sweep"]
+__all__ = [
+    "PEERS",
+    "Cell",
+    "Task",
+    "benchmark",
+    "break_points",
+    "draw_registered",
+    "judge",
+    "light_grid",
+    "load_peers",
+    "registered",
+    "score",
+    "sweep",
+]

@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from pcnav_study.errors import InputError
 from pcnav_study.matching import METHODS, match
 from pcnav_study.quality.summary import wilson
 from pcnav_study.scene.sun import SunPosition
-from pcnav_study.scene.trials import Conditions, Site
+from pcnav_study.scene.trials import Conditions, Site, Trials
 
 BASE_AZIMUTH = 100.0  # of the reference sun, degrees
 SWEPT = ("noise", "size", "rotation", "scale", "relief_displacement", "albedo_change")
@@ -101,41 +102,60 @@ def under(difference: float, reference_zenith: float, zenith: float, **ground: A
 
 
 def judge(site: Site, task: Task) -> list[dict[str, Any]]:
-    """A row for each method: success with its Wilson interval, and the errors.
-
-    ``rmse_px`` is radial and counts the correct matches alone; ``median_px`` and ``p95_px``
-    count all.
-    """
+    """A row for each method on the same pairs, as ``described`` and ``success`` fill it."""
     cell = task.cell
     trials = site.draw(cell.conditions, cell.size, task.n, np.random.default_rng(task.seed))
-    suns = cell.conditions.reference_sun, cell.conditions.moving_sun
-    plain = {k: v for k, v in asdict(cell.conditions).items() if not k.endswith("_sun")}
-    common = {"site": cell.site, "size": cell.size, "varied": cell.varied} | plain
-    common |= {"azimuth_difference": cell.azimuth_difference}
-    common |= {"reference_zenith": suns[0].zenith, "moving_zenith": suns[1].zenith}
+    given: dict[str, Any] = {
+        "sun": (cell.conditions.reference_sun, cell.conditions.moving_sun),
+        "pixel_size": site.pixel_size,
+    }
     rows = []
     for method in task.methods:
-        errors = np.array(
-            [
-                np.hypot(
-                    *(
-                        match(reference, moving, method, sun=suns, pixel_size=site.pixel_size).shift
-                        - shift
-                    )
-                )
-                for reference, moving, shift in zip(
-                    trials.reference, trials.moving, trials.shift, strict=True
-                )
-            ]
-        )
-        correct = errors <= task.tolerance_px
-        low, high = wilson(int(correct.sum()), task.n)
-        rms = float(np.sqrt((errors[correct] ** 2).mean())) if correct.any() else np.nan
-        judged = {"method": method, "n": task.n, "tolerance_px": task.tolerance_px}
-        judged |= {"success": correct.mean(), "success_low": low, "success_high": high}
-        judged |= {"rmse_px": rms, "median_px": np.median(errors)}
-        rows.append(common | judged | {"p95_px": np.quantile(errors, 0.95)})
+        row = described(cell) | {"method": method, "tolerance_px": task.tolerance_px}
+        rows.append(row | score(trials, method, task.tolerance_px, **given))
     return rows
+
+
+def score(trials: Trials, method: str, tolerance_px: float, **given: Any) -> dict[str, Any]:
+    """How a method does on trials, as ``success`` counts it; ``given`` goes to ``match``."""
+    errors = [
+        np.hypot(*(match(reference, moving, method, **given).shift - shift))
+        for reference, moving, shift in zip(
+            trials.reference, trials.moving, trials.shift, strict=True
+        )
+    ]
+    return success(np.array(errors), tolerance_px)
+
+
+def described(cell: Cell) -> dict[str, Any]:
+    """The cell as columns of a table."""
+    plain = {k: v for k, v in asdict(cell.conditions).items() if not k.endswith("_sun")}
+    return {
+        "site": cell.site,
+        "size": cell.size,
+        "varied": cell.varied,
+        "azimuth_difference": cell.azimuth_difference,
+        "reference_zenith": cell.conditions.reference_sun.zenith,
+        "moving_zenith": cell.conditions.moving_sun.zenith,
+    } | plain
+
+
+def success(errors: NDArray[np.float64], tolerance_px: float) -> dict[str, Any]:
+    """Share of errors (radial, px) within the tolerance, its Wilson interval, and their size.
+
+    ``rmse_px`` counts the correct matches alone, ``median_px`` and ``p95_px`` all of them.
+    """
+    n, correct = len(errors), errors <= tolerance_px
+    low, high = wilson(int(correct.sum()), n) if n else (0.0, 1.0)
+    return {
+        "n": n,
+        "success": correct.mean() if n else np.nan,
+        "success_low": low,
+        "success_high": high,
+        "rmse_px": np.sqrt((errors[correct] ** 2).mean()) if correct.any() else np.nan,
+        "median_px": np.median(errors) if n else np.nan,
+        "p95_px": np.quantile(errors, 0.95) if n else np.nan,
+    }
 
 
 def break_points(table: pd.DataFrame, level: float = 0.95) -> pd.DataFrame:

@@ -10,6 +10,7 @@ from pcnav_study.figures.quality import (
     reliability_diagram,
     roc_curves,
 )
+from pcnav_study.figures.speed import time_bars
 from pcnav_study.figures.terrain import image_row, slope_aspect_surface
 
 __all__ = [
@@ -27,4 +28,5 @@ __all__ = [
     "slope_aspect_surface",
     "success_by_sun",
     "sweep_curves",
+    "time_bars",
 ]

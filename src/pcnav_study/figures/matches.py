@@ -65,9 +65,13 @@ def error_by_sun(tables: Mapping[str, pd.DataFrame], tolerance_px: float) -> go.
 
 
 def match_pictures(
-    pairs: xr.Dataset, surfaces: Mapping[str, xr.Dataset], frame: str, aspect: float = 1.0
+    pairs: xr.Dataset,
+    surfaces: Mapping[str, xr.Dataset],
+    tables: Mapping[str, pd.DataFrame],
+    frame: str,
+    aspect: float = 1.0,
 ) -> go.Figure:
-    """One frame: map window, rectified frame, and each method's surface with truth and peak."""
+    """One frame: map window, rectified frame, and each method's surface with truth and answer."""
     pair = pairs.sel(frame=frame)
     titles = ["map", "rectified frame", *(f"{name}: surface" for name in surfaces)]
     figure = make_subplots(1, len(titles), subplot_titles=titles, horizontal_spacing=0.025)
@@ -78,10 +82,10 @@ def match_pictures(
             z=image, colorscale="gray", zmin=low, zmax=high, showscale=False, row=1, col=k
         )
     truth = float(pair["true_row"]), float(pair["true_col"])
-    for k, stack in enumerate(surfaces.values(), 3):
+    for k, (name, stack) in enumerate(surfaces.items(), 3):
         one = stack["surface"].sel(frame=frame)
-        row, col = np.unravel_index(int(one.values.argmax()), one.shape)
-        found = float(one["row"][row]), float(one["col"][col])
+        answer = tables[name].set_index("frame").loc[frame]
+        found = float(answer["shift_row_px"]), float(answer["shift_col_px"])
         figure.add_heatmap(
             x=one["col"],
             y=one["row"],
@@ -93,7 +97,7 @@ def match_pictures(
         )
         for label, (y, x), symbol, colour in (
             ("true shift", truth, "circle-open", "#ffffff"),
-            ("found peak", found, "x-thin-open", "#ff3030"),
+            ("found shift", found, "x-thin-open", "#ff3030"),
         ):
             line = {"width": 2.5, "color": colour}
             figure.add_scatter(

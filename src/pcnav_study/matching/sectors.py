@@ -28,7 +28,7 @@ from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
 BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass
-ORIENTATION = 1.5  # weight of the orientation surface
+ORIENTATION = 2.5  # weight of the orientation surface
 NEARBY = 3  # px
 TAPER = ("tukey", 0.25)
 

@@ -165,3 +165,31 @@ class Calibration(Parameters):
     shown: int = Field(ge=0)
     jobs: int
     backend: str
+
+
+class Benchmark(Parameters):
+    """The benchmark against peers."""
+
+    sites: list[Literal["map", "fractal"]] = Field(min_length=1)
+    methods: list[Method] = Field(min_length=1)
+    peers: list[str]
+    window_px: list[int] = Field(min_length=1)
+    azimuth_differences: list[float] = Field(min_length=1)
+    trials: int = Field(ge=1)
+    roaming_trials: int = Field(ge=0)
+    noise: float = Field(ge=0)
+    tolerance_px: float = Field(gt=0)
+    seed: int
+
+
+class Pairs(Parameters):
+    """Two real pictures of one place."""
+
+    reference: str | None
+    moving: str | None
+    affine: str | None
+    methods: list[Method] = Field(min_length=1)
+    window_px: int = Field(ge=16)
+    trials: int = Field(ge=1)
+    tolerance_px: float = Field(gt=0)
+    seed: int

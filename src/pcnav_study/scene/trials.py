@@ -97,8 +97,8 @@ class Site:
             If the relief is too small for such windows.
         """
         reach = size // 6 - 1
-        inner = [s - 2 * RIM - size - 2 * reach for s in self.elevation.shape]
-        if min(inner) < 1:
+        room = np.array(self.elevation.shape) - 2 * RIM - size
+        if room.min() < reach:
             raise InputError(
                 f"windows of {size} px do not fit a relief of {self.elevation.shape} px; "
                 "lower the window size or give a larger relief"
@@ -107,8 +107,9 @@ class Site:
         spread = [conditions.noise * p[RIM:-RIM, RIM:-RIM].std() for p in (fixed, moved)]
         references, movings, shifts = [], [], []
         for _ in range(n):
-            corner = RIM + reach + rng.integers(0, inner)
             whole = rng.integers(-reach, reach + 1, 2)
+            first, last = np.maximum(0, -whole), room - np.maximum(0, whole)
+            corner = RIM + rng.integers(first, last + 1)
             reference = _cut(fixed, corner, size)
             moving = self._seen(moved, corner + whole, size, conditions)
             references.append(reference + spread[0] * rng.standard_normal(reference.shape))

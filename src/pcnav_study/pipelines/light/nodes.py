@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -40,7 +41,7 @@ def run_sweeps(elevation: xr.DataArray, light: Light) -> tuple[pd.DataFrame, pd.
 
 
 def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str) -> pd.DataFrame:
-    sites: dict[str, Site] = {name: _site(name, elevation, light) for name in light.sites}
+    sites = sites_of(elevation, light.sites, light.window_px, light.seed)
     tasks = [
         Task(cell, tuple(light.methods), light.trials, light.tolerance_px, light.seed + k)
         for k, cell in enumerate(cells)
@@ -54,11 +55,17 @@ def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str
     return table
 
 
-def _site(name: str, elevation: xr.DataArray, light: Light) -> Site:
-    if name == "map":
-        relief, pixel_size = elevation.values.astype(np.float64), Grid.of(elevation).pixel_size
-    else:
-        pixel_size = (30.0, 30.0)
-        rng = np.random.default_rng([light.seed, 7])
-        relief = fractal_relief((400, 400), pixel_size, rng)
-    return Site(relief, pixel_size, seed=light.seed)
+def sites_of(
+    elevation: xr.DataArray, names: Sequence[str], window_px: int, seed: int
+) -> dict[str, Site]:
+    """Reliefs by name: ``map`` is the ingested one, ``fractal`` a self-affine one."""
+    sites = {}
+    for name in names:
+        if name == "map":
+            relief, pixel_size = elevation.values.astype(np.float64), Grid.of(elevation).pixel_size
+        else:
+            pixel_size = (30.0, 30.0)
+            side = max(400, 3 * window_px // 2)
+            relief = fractal_relief((side, side), pixel_size, np.random.default_rng([seed, 7]))
+        sites[name] = Site(relief, pixel_size, seed=seed)
+    return sites

@@ -33,7 +33,7 @@ def execute(source: Path, parameters: dict[str, Any], project: Path) -> Notebook
         try:
             notebook = papermill.execute_notebook(
                 target, target, parameters, cwd=str(project), kernel_name="python3",
-                progress_bar=False, log_output=False, extra_arguments=["--log-level=ERROR"],
+                progress_bar=False, log_output=False, extra_arguments=["--log-level=CRITICAL"],
             )  # fmt: skip
         except PapermillExecutionError as error:
             kept = project / "data" / "08_reporting" / "failed" / target.name
