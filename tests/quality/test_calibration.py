@@ -29,6 +29,7 @@ def table(rng, n=900):
     logs = rng.normal(0, 0.5, (n, len(FIELDS))) + np.where(right, 0.0, -0.8)[:, None]
     errors = np.where(right, rng.uniform(0, 1, n), rng.uniform(1.01, 30, n))
     kinds = np.where(right, "match", np.where(rng.random(n) < 0.5, "beside", "off_route"))
+    logs[:, FIELDS.index("above_null")] += 4.0  # well above chance
     columns = dict(zip(FIELDS, np.exp(logs).T, strict=True))
     return pd.DataFrame(columns | {"error_px": errors, "kind": kinds})
 
@@ -159,3 +160,15 @@ def test_rates_are_counted_among_their_own(made):
     assert report["radius_coverage"]["value"] == pytest.approx(1 / 3)
     assert report["auc_off_route"]["n_wrong"] == 1
     assert set(report["missed_by_kind"]) == {"beside", "plain_pc", "off_route"}
+
+
+def test_the_null_overrules_whatever_the_regression_says(made):
+    good = np.exp(np.full((1, len(FIELDS)), 0.5))
+    column = FIELDS.index("above_null")
+    strong, weak = good.copy(), good.copy()
+    strong[0, column], weak[0, column] = 10.0, 1.5
+    free = terms(weak, np.array(made.mean), np.array(made.scale)) @ made.weights
+    assert made.score(weak)[0] < free[0] - 10
+    assert made.score(strong)[0] == pytest.approx(
+        (terms(strong, np.array(made.mean), np.array(made.scale)) @ made.weights)[0]
+    )

@@ -32,6 +32,8 @@ from pcnav_study.quality.evidence import Evidence
 Array = NDArray[np.float64]
 SMALLEST_VALUE = 1e-3  # of any evidence before its logarithm
 TOLERANCE = 1.0  # px
+CHANCE = 2.8  # times the null's mean; unrelated windows reach 2.4 to 2.8 at the best of shifts
+FINE = 20.0  # log odds for each unit below
 FROZEN = "calibration.json"
 
 
@@ -72,7 +74,7 @@ class Calibration:
 
     def score(self, evidence: Array) -> Array:
         """Log odds (n,) of evidence (n, features), before the isotonic map."""
-        return np.asarray(terms(evidence, np.array(self.mean), np.array(self.scale)) @ self.weights)
+        return scored(evidence, np.array(self.mean), np.array(self.scale), np.array(self.weights))
 
     def probability(self, score: Array) -> Array:
         """Probability that the shift is within ``tolerance_px``."""
@@ -90,6 +92,15 @@ def terms(evidence: Array, mean: Array, scale: Array) -> Array:
     x = (np.log(np.maximum(evidence, SMALLEST_VALUE)) - mean) / scale
     rows, cols = np.triu_indices(x.shape[1])
     return np.concatenate([np.ones((len(x), 1)), x, x[:, rows] * x[:, cols]], axis=1)
+
+
+def scored(evidence: Array, mean: Array, scale: Array, weights: Array) -> Array:
+    """Log odds, less a fine for a quality that chance reaches at the best of many shifts.
+
+    Far from its training a regression may say anything; the null may not be overruled.
+    """
+    short = CHANCE - evidence[:, Evidence._fields.index("above_null")]
+    return np.asarray(terms(evidence, mean, scale) @ weights - FINE * np.maximum(short, 0.0))
 
 
 def fit(
@@ -130,7 +141,7 @@ def fit(
     weights = np.concatenate([model.intercept_, model.coef_[0]])
 
     x, right = _known(calibration, "calibration")
-    scores = terms(x, mean, scale) @ weights
+    scores = scored(x, mean, scale, weights)
     plain = (calibration["kind"] == "match").to_numpy()
     isotonic = IsotonicRegression(out_of_bounds="clip").fit(scores, right)
     edge = 1 / (len(right) + 2)
