@@ -63,8 +63,9 @@ def _spread(shape: tuple[int, int], kind: Taper) -> Array:
     window = fft.fft2(taper(shape, kind).astype(np.float64) ** 2)
     variance = np.zeros(len(bank))
     rows, cols = bank.shape[1:]
-    for down in range(-NEIGHBOURS, NEIGHBOURS + 1):
-        for right in range(-NEIGHBOURS, NEIGHBOURS + 1):
+    tall, wide = min(NEIGHBOURS, rows - 1), min(NEIGHBOURS, cols - 1)
+    for down in range(-tall, tall + 1):
+        for right in range(-wide, wide + 1):
             alike = phasor_correlation(float(abs(window[down, right] / window[0, 0]))) ** 2
             one = bank[
                 :, max(-down, 0) : rows - max(down, 0), max(-right, 0) : cols - max(right, 0)
