@@ -172,3 +172,9 @@ def test_the_null_overrules_whatever_the_regression_says(made):
     assert made.score(strong)[0] == pytest.approx(
         (terms(strong, np.array(made.mean), np.array(made.scale)) @ made.weights)[0]
     )
+
+
+def test_a_full_separation_of_few_is_not_certain():
+    assert auc(np.array([2.0, 3.0, 4.0]), np.array([0.0, 1.0])) == pytest.approx(
+        (1.0, np.sqrt(0.025), 1.0)
+    )

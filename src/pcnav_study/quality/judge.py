@@ -24,6 +24,9 @@ RESAMPLES = 200
 def auc(right: Array, wrong: Array) -> tuple[float, float, float]:
     """Probability that a right match scores above a wrong one, with DeLong's interval [1]_.
 
+    Where the two part without overlap DeLong's variance is zero; the interval then ends
+    where Clopper and Pearson's does for as many successes as the smaller class has members.
+
     References
     ----------
     .. [1] DeLong, DeLong, Clarke-Pearson (1988), Biometrics 44(3), 837-845.
@@ -34,6 +37,8 @@ def auc(right: Array, wrong: Array) -> tuple[float, float, float]:
     below = 1 - (together[m:] - rankdata(wrong)) / m
     area = float(above.mean())
     variance = above.var(ddof=1) / m + below.var(ddof=1) / n if min(m, n) > 1 else np.inf
+    if area == 1:
+        return 1.0, float(0.025 ** (1 / min(m, n))), 1.0
     half = float(norm.isf(0.025) * np.sqrt(variance))
     return area, max(area - half, 0.0), min(area + half, 1.0)
 
