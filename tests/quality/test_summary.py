@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from pcnav_study.quality import assess, is_alarm, summarise, wilson
+from pcnav_study.quality import assess, summarise, unrelated_level, wilson
 
 
 @pytest.mark.parametrize(
@@ -36,6 +36,7 @@ def table(**columns):
 def test_a_match_is_correct_within_the_tolerance():
     found = assess(
         table(error_px=[0.0, 0.99, 1.0, 1.01, 30, np.nan]),
+        window=(64, 64),
         false_match_rate=0.01,
         tolerance_px=1.0,
     )
@@ -44,27 +45,27 @@ def test_a_match_is_correct_within_the_tolerance():
 
 
 @pytest.mark.parametrize("rate", [0.001, 0.01, 0.2])
-def test_assessing_alarms_exactly_when_the_alarm_does(rate):
-    rng = np.random.default_rng(3)
-    candidates = rng.choice([5, 100, 1089, 9216], 200)
-    qualities = rng.uniform(0, 0.6, 200)
+@pytest.mark.parametrize("side", [48, 128])
+def test_assessing_alarms_below_each_methods_own_level(rate, side):
+    levels = {
+        m: unrelated_level(m, (side, side), false_match_rate=rate) for m in ("pc", "pc-sectors")
+    }
+    rows = [(m, level + step) for m, level in levels.items() for step in (-1e-6, 1e-6)]
+    methods, qualities = zip(*rows, strict=True)
     found = assess(
-        table(error_px=np.zeros(200), quality=qualities, candidates=candidates),
+        table(error_px=np.zeros(4), quality=qualities, method=methods),
+        window=(side, side),
         false_match_rate=rate,
         tolerance_px=1.0,
     )
-    expected = [
-        is_alarm(q, int(c), false_match_rate=rate)
-        for q, c in zip(qualities, candidates, strict=True)
-    ]
-    assert found["alarm"].tolist() == expected
-    assert 0 < np.mean(expected) < 1
+    assert found["alarm"].tolist() == [True, False, True, False]
+    assert len(set(levels.values())) == 2
 
 
 def test_assessing_adds_columns_and_changes_none():
     before = table(error_px=[0.5, 2.0])
     kept = before.copy(deep=True)
-    after = assess(before, false_match_rate=0.01, tolerance_px=1.0)
+    after = assess(before, window=(64, 64), false_match_rate=0.01, tolerance_px=1.0)
     pd.testing.assert_frame_equal(before, kept)
     pd.testing.assert_frame_equal(after[before.columns.tolist()], before)
 

@@ -154,6 +154,29 @@ class Light(Parameters):
     sweeps: Sweeps
 
 
+class CaseSet(Parameters):
+    """Cases drawn for one purpose: ``west``, ``east`` or fractal seeds, and how many."""
+
+    sites: list[Literal["west", "east"] | int] = Field(min_length=1)
+    sizes: list[Annotated[int, Field(ge=32)]] = Field(min_length=1)
+    differences: list[float] = Field(min_length=1)
+    trials: int = Field(ge=1)
+    seed: int
+
+
+class Calibration(Parameters):
+    """What the quality is calibrated on, what it promises, and what it is judged on."""
+
+    train: CaseSet
+    calibrate: CaseSet
+    judge: CaseSet
+    false_alarm_rate: float = Field(gt=0, lt=1)
+    radius_coverage: float = Field(gt=0, lt=1)
+    shown: int = Field(ge=0)
+    jobs: int
+    backend: str
+
+
 class Benchmark(Parameters):
     """The benchmark against peers."""
 

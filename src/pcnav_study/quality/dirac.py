@@ -1,9 +1,19 @@
 """The Dirac-delta quality of a phase-correlation surface.
 
-A perfect match gives a Dirac delta. Where the cross-power spectrum has modulus 1
-throughout, Parseval's theorem gives the surface unit energy, so the cosine similarity
-with a delta at the peak is the peak's height itself. A shift between pixels spreads the
-delta over its neighbours; their energy is therefore counted with it.
+A perfect match gives a Dirac delta. The normalised cross-power spectrum Q of N pixels has
+modulus 1 throughout, so by Parseval's theorem its surface r has unit energy,
+
+    sum_x r(x)**2 = 1/N sum_w |Q(w)|**2 = 1,
+
+and the cosine similarity of r with a delta at x is <r, delta> / (|r| |delta|) = r(x):
+the height of the peak itself. A shift between pixels spreads the delta over its
+neighbours; counted with them it is the root of the neighbourhood's share of the energy,
+the cosine with the best delta spread over it.
+
+The sector form (`matching.refine.delta_quality`): with a low-pass b >= 0 of unit sum, the
+cosine in the inner product weighted by b is sum_w b(w) Re[Q(w) exp(i w x)]. Two suns may
+flip whole angular sectors, so each sector's part counts with the sign that it has: the sum
+of the sectors' absolute surfaces. `null` says what unrelated windows reach.
 """
 
 from __future__ import annotations
@@ -36,14 +46,33 @@ def delta_similarity(
     return float(np.sqrt(min(float(near.sum()) / total, 1.0)))
 
 
-def null_level(candidates: int, *, radius: int = 1, false_match_rate: float = 0.01) -> float:
+def null_level(
+    candidates: int,
+    *,
+    radius: int = 1,
+    false_match_rate: float = 0.01,
+    whole: int | None = None,
+) -> float:
     """Quality that unrelated windows exceed with probability ``false_match_rate``.
 
     Unrelated phases give a surface of independent normal values; the best of
     ``candidates`` neighbourhoods, each a chi-square of (2 radius + 1)**2 degrees of
     freedom, is bounded by the union of all.
+
+    Parameters
+    ----------
+    candidates : int
+        Shifts that the best was chosen from.
+    radius : int
+        As in `delta_similarity`.
+    false_match_rate : float
+        Share of unrelated pairs that may pass.
+    whole : int, optional
+        Pixels of the surface that the unit energy is spread over, if more were computed
+        than are candidates.
     """
     cells = (2 * radius + 1) ** 2
     if candidates <= cells:
         return 1.0
-    return float(np.sqrt(min(chi2.isf(false_match_rate / candidates, cells) / candidates, 1.0)))
+    energy = chi2.isf(false_match_rate / candidates, cells) / (whole or candidates)
+    return float(np.sqrt(min(energy, 1.0)))

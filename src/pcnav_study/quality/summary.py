@@ -8,15 +8,26 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from pcnav_study.quality.alarm import is_alarm
+from pcnav_study.quality.alarm import unrelated_level
 
 
-def assess(table: pd.DataFrame, *, false_match_rate: float, tolerance_px: float) -> pd.DataFrame:
-    """The match table with ``correct`` (within the tolerance) and ``alarm``."""
-    alarms = [
-        is_alarm(quality, candidates, false_match_rate=false_match_rate)
-        for quality, candidates in zip(table["quality"], table["candidates"], strict=True)
-    ]
+def assess(
+    table: pd.DataFrame,
+    *,
+    window: tuple[int, int],
+    false_match_rate: float,
+    tolerance_px: float,
+) -> pd.DataFrame:
+    """The match table with ``correct`` (within the tolerance) and ``alarm``.
+
+    The alarm sounds where unrelated windows of this shape, (rows, columns) px, would reach
+    the quality too often.
+    """
+    levels = {
+        method: unrelated_level(method, window, false_match_rate=false_match_rate)
+        for method in table["method"].unique()
+    }
+    alarms = table["quality"] < table["method"].map(levels)
     correct = table["error_px"] <= tolerance_px
     return table.assign(tolerance_px=tolerance_px, correct=correct, alarm=alarms)
 
@@ -41,7 +52,7 @@ def summarise(tables: Sequence[pd.DataFrame], *, bin_deg: float = 15.0) -> pd.Da
     table = pd.concat(tables, ignore_index=True)
     middle = np.rint(table["sun_difference"] / bin_deg) * bin_deg
     rows = []
-    for (method, difference), group in table.groupby(["method", middle], sort=False):
+    for (method, difference), group in table.groupby(["method", middle]):
         n, good = len(group), int(group["correct"].sum())
         low, high = wilson(good, n)
         errors = group["error_px"]

@@ -6,16 +6,19 @@ import logging
 
 import pandas as pd
 
-from pcnav_study.pipelines.parameters import Quality
+from pcnav_study.pipelines.parameters import Quality, Rectify
 from pcnav_study.quality import assess, summarise
 
 logger = logging.getLogger(__name__)
 
 
-def assess_matches(match_table: pd.DataFrame, quality: Quality) -> pd.DataFrame:
+def assess_matches(match_table: pd.DataFrame, quality: Quality, rectify: Rectify) -> pd.DataFrame:
     """Each match with its alarm."""
     return assess(
-        match_table, false_match_rate=quality.false_match_rate, tolerance_px=quality.tolerance_px
+        match_table,
+        window=(rectify.window_px, rectify.window_px),
+        false_match_rate=quality.false_match_rate,
+        tolerance_px=quality.tolerance_px,
     )
 
 

@@ -8,9 +8,10 @@ from pcnav_study.pipelines.quality.nodes import assess_matches, summarise_matche
 
 def create_pipeline() -> Pipeline:
     """Quality tables by namespace, and their summary."""
-    inputs = ["match_table", "params:quality"]
+    settings = {"params:quality", "params:rectify"}
+    inputs = ["match_table", "params:quality", "params:rectify"]
     base = Pipeline([Node(assess_matches, inputs, "quality_table", name="assess")])
-    each = [Pipeline(base, namespace=n, parameters={"params:quality"}) for n in NAMESPACES]
+    each = [Pipeline(base, namespace=n, parameters=settings) for n in NAMESPACES]
     plain = {f"{n}.quality_table": f"{n}_quality_table" for n in NAMESPACES}
     inputs = ["params:quality", *plain.values()]
     summary = Node(summarise_matches, inputs, "match_summary", name="summarise_matches")

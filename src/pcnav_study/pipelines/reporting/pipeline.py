@@ -10,6 +10,7 @@ NOTEBOOKS = (
     ("walkthroughs", "image_formation", ("elevation", "suns")),
     ("walkthroughs", "phase_correlation", ("elevation",)),
     ("walkthroughs", "rectification", ("elevation", "suns", "reference_map", "frames")),
+    ("walkthroughs", "dirac_delta", ("elevation",)),
     (
         "reports",
         "matches",
@@ -19,6 +20,11 @@ NOTEBOOKS = (
             *(f"{n}.quality_table" for n in NAMESPACES),
             *(f"{n}.surfaces" for n in NAMESPACES),
         ),
+    ),
+    (
+        "reports",
+        "quality",
+        ("quality_cases", "quality_calibration", "quality_measures", "quality_mistakes"),
     ),
     ("reports", "changing_light", ("light_table", "sweep_table", "break_points")),
 )
