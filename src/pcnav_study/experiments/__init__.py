@@ -12,6 +12,7 @@ from pcnav_study.experiments.cells import (
 )
 from pcnav_study.experiments.peers import PEERS, load_peers
 from pcnav_study.experiments.real import draw_registered, registered
+from pcnav_study.experiments.sites import experiment_sites
 
 __all__ = [
     "PEERS",
@@ -20,6 +21,7 @@ __all__ = [
     "benchmark",
     "break_points",
     "draw_registered",
+    "experiment_sites",
     "judge",
     "light_grid",
     "load_peers",

@@ -144,20 +144,25 @@ def _stacked(pair: Pair, one: Slices, other: Slices) -> NDArray[np.float32]:
     shape = (rows.stop - rows.start, cols.stop - cols.start)
     both = np.empty((2, *shape), np.float32)
     weight = sp.taper(shape, ("tukey", 0.25 if min(shape) < SMALL else 0.5))
-    weight = weight * _valid(pair.reference, one) * _valid(pair.moving, other)
+    weight = weight * validity(pair.reference, one) * validity(pair.moving, other)
     for out, window, cut in zip(both, (pair.reference, pair.moving), (one, other), strict=True):
-        image = window.values[cut]
-        if window.valid is not None:
-            image = np.where(window.valid[cut], image, window.mean)
-        mean = image.dtype.type(np.add.reduce(image, axis=None) / image.size)
-        np.subtract(image, mean, out=out, casting="same_kind")
-        if not window.is_tame:
-            out /= np.float32(max(float(np.abs(out).max()), 1e-37))
+        centred(window, cut, out)
         out *= weight
     return both
 
 
-def _valid(window: Window, cut: Slices) -> Any:
+def centred(window: Window, cut: Slices, out: NDArray[np.float32]) -> None:
+    """Write a crop without its mean, missing pixels at the window's, scaled only if wild."""
+    image = window.values[cut]
+    if window.valid is not None:
+        image = np.where(window.valid[cut], image, window.mean)
+    mean = image.dtype.type(np.add.reduce(image, axis=None) / image.size)
+    np.subtract(image, mean, out=out, casting="same_kind")
+    if not window.is_tame:
+        out /= np.float32(max(float(np.abs(out).max()), 1e-37))
+
+
+def validity(window: Window, cut: Slices) -> Any:
     """Weights around missing pixels; 1 where none is missing."""
     if window.valid is None:
         return np.float32(1.0)

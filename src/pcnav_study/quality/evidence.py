@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from pcnav_study.matching import spectrum as sp
-from pcnav_study.matching.overlap import SECTORS, Band, band_of
+from pcnav_study.matching.overlap import SECTORS, Band, band_of, centred, validity
 from pcnav_study.matching.pair import Pair
 from pcnav_study.matching.refine import quality_at
 from pcnav_study.matching.surface import Surface
@@ -152,14 +152,8 @@ def _phasors(
     places = ((reference, r_row, r_col), (moving, m_row, m_col))
     for out, (window, row, col) in zip(both, places, strict=True):
         cut = slice(row, row + rows), slice(col, col + cols)
-        image = window.values[cut]
-        if window.valid is not None:
-            weight = np.multiply(weight, _feathered(window)[cut])
-            image = np.where(window.valid[cut], image, window.mean)
-        mean = image.dtype.type(np.add.reduce(image, axis=None) / image.size)
-        np.subtract(image, mean, out=out, casting="same_kind")
-        if not window.is_tame:
-            out /= np.float32(max(float(np.abs(out).max()), 1e-37))
+        centred(window, cut, out)
+        weight = weight * validity(window, cut)
     both *= weight
     omega_rows, omega_cols = band_of((rows, cols))[:2]
     high, wide = len(omega_rows) // 2, len(omega_cols) - 1
@@ -169,10 +163,6 @@ def _phasors(
     low: NDArray[np.complex64] = np.concatenate((product[rows - high :], product[: high + 1]))
     sp.whitened(low)
     return low if low[high].any() else None
-
-
-def _feathered(window: Window) -> NDArray[np.float32]:
-    return window.kept("feather", lambda: sp.feather(window))
 
 
 class _Tables(NamedTuple):

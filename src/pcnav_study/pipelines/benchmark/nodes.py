@@ -8,11 +8,10 @@ import pandas as pd
 import xarray as xr
 from threadpoolctl import threadpool_limits
 
-from pcnav_study.experiments import benchmark, light_grid
-from pcnav_study.pipelines.light.nodes import sites_of
+from pcnav_study.experiments import benchmark, experiment_sites, light_grid
 from pcnav_study.pipelines.parameters import Benchmark
 from pcnav_study.progress import progress
-from pcnav_study.scene import jacksboro
+from pcnav_study.scene import Grid, jacksboro
 
 logger = logging.getLogger(__name__)
 
@@ -31,7 +30,10 @@ def run_benchmark(relief: xr.DataArray, bench: Benchmark) -> pd.DataFrame:
             bench.sites, size, bench.azimuth_differences, 45.0, [45.0], noise=bench.noise
         )
     ]
-    sites = sites_of(relief, bench.sites, max(bench.window_px), bench.seed)
+    pixel_size = Grid.of(relief).pixel_size
+    sites = experiment_sites(
+        bench.sites, relief.values, pixel_size, max(bench.window_px), bench.seed
+    )
     with threadpool_limits(1):
         tables = benchmark(
             sites, cells, n=bench.trials, seed=bench.seed,

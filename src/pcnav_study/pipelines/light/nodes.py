@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 from joblib import Parallel, delayed
 
-from pcnav_study.experiments import Cell, Task, break_points, judge, light_grid, sweep
+from pcnav_study.experiments import (
+    Cell,
+    Task,
+    break_points,
+    experiment_sites,
+    judge,
+    light_grid,
+    sweep,
+)
 from pcnav_study.pipelines.parameters import Light
 from pcnav_study.progress import progress
-from pcnav_study.scene import Grid, fractal_relief
-from pcnav_study.scene.trials import Site
+from pcnav_study.scene import Grid
 
 logger = logging.getLogger(__name__)
 
@@ -41,7 +46,8 @@ def run_sweeps(elevation: xr.DataArray, light: Light) -> tuple[pd.DataFrame, pd.
 
 
 def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str) -> pd.DataFrame:
-    sites = sites_of(elevation, light.sites, light.window_px, light.seed)
+    pixel_size = Grid.of(elevation).pixel_size
+    sites = experiment_sites(light.sites, elevation.values, pixel_size, light.window_px, light.seed)
     tasks = [
         Task(cell, tuple(light.methods), light.trials, light.tolerance_px, light.seed + k)
         for k, cell in enumerate(cells)
@@ -53,19 +59,3 @@ def _judged(elevation: xr.DataArray, light: Light, cells: list[Cell], doing: str
         "Judged %d methods on %d pairs (%s)", len(light.methods), len(tasks) * light.trials, doing
     )
     return table
-
-
-def sites_of(
-    elevation: xr.DataArray, names: Sequence[str], window_px: int, seed: int
-) -> dict[str, Site]:
-    """Reliefs by name: ``map`` is the ingested one, ``fractal`` a self-affine one."""
-    sites = {}
-    for name in names:
-        if name == "map":
-            relief, pixel_size = elevation.values.astype(np.float64), Grid.of(elevation).pixel_size
-        else:
-            pixel_size = (30.0, 30.0)
-            side = max(400, 3 * window_px // 2)
-            relief = fractal_relief((side, side), pixel_size, np.random.default_rng([seed, 7]))
-        sites[name] = Site(relief, pixel_size, seed=seed)
-    return sites
