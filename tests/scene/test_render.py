@@ -1,5 +1,7 @@
 """Rendered frames against ray-plane algebra, and a simulated flight."""
 
+import sys
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -16,6 +18,7 @@ from pcnav_study.scene import (
     fractal_relief,
     jacksboro,
     render,
+    shade,
     waypoints,
 )
 
@@ -233,3 +236,16 @@ def test_the_built_in_tile_can_be_flown_over():
     )
     assert np.isfinite(log["frames"]).all()
     np.testing.assert_allclose(log["yaw"], 90)
+
+
+def test_iteration_and_marching_find_the_same_ground(monkeypatch):
+    ground = jacksboro()
+    x, y = (axis.mean() for axis in Grid.of(ground).mesh())
+    picture = shade(ground, sun=SunPosition(120, 50))
+    camera = Camera.from_field_of_view((64, 64), 50)
+    pose = Pose.from_yaw_pitch_roll((x, y, 9000), 30, 2, -1)
+    iterated = render(picture, ground, camera, pose)
+    monkeypatch.setattr(sys.modules["pcnav_study.scene.render"], "CONTRACTION", 0.0)
+    marched = render(picture, ground, camera, pose)
+    assert not np.array_equal(iterated, marched)
+    assert np.abs(iterated - marched).max() < 0.05 * iterated.std()
