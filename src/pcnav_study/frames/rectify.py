@@ -19,6 +19,8 @@ from pcnav_study.errors import InputError
 from pcnav_study.scene.camera import Camera, Pose
 from pcnav_study.scene.grid import Grid
 
+SAMPLES = 32  # along each axis, from which the scale is measured
+
 
 def rectify(
     frame: NDArray[np.floating],
@@ -53,14 +55,17 @@ def rectify(
             f"a frame of {frame.shape} px does not fit the camera's {camera.shape}; "
             "give each camera a flight folder of its own"
         )
-    x, y = grid.mesh()
-    height = np.broadcast_to(np.asarray(ground, np.float64), grid.shape)
-    rows, cols = camera.project(np.stack([x, y, height], axis=-1), pose)
-    shrink = _shrink_factor(rows, cols)
+    north, east = grid.coordinates()
+    at = np.stack(camera.project_map(east, north, ground, pose))
+    shrink = _shrink_factor(*at)
     small = _block_mean(np.asarray(frame, np.float64), shrink)
-    at = (np.stack([rows, cols]) - (shrink - 1) / 2) / shrink
-    looked_up = ndimage.map_coordinates(small, np.nan_to_num(at, nan=-9.0), order=1, cval=np.nan)
-    return np.asarray(looked_up, np.float32)
+    if shrink > 1:
+        at -= (shrink - 1) / 2
+        at /= shrink
+    at[np.isnan(at)] = -9.0
+    out = np.empty(grid.shape, np.float32)
+    ndimage.map_coordinates(small, at, output=out, order=1, cval=np.nan)
+    return out
 
 
 def bounding_grid(corners: NDArray[np.float64], pixel: float, crs: str) -> Grid:
@@ -92,9 +97,14 @@ def central_grid(corners: NDArray[np.float64], pixel: float, crs: str) -> Grid:
 
 def _shrink_factor(rows: NDArray[np.float64], cols: NDArray[np.float64]) -> int:
     """Whole frame pixels that one map pixel covers, at least one."""
-    area = np.abs(
-        np.gradient(rows, axis=0) * np.gradient(cols, axis=1)
-        - np.gradient(rows, axis=1) * np.gradient(cols, axis=0)
+    every = max(1, min(rows.shape) // SAMPLES)
+    rows, cols = rows[::every, ::every], cols[::every, ::every]
+    area = (
+        np.abs(
+            np.gradient(rows, axis=0) * np.gradient(cols, axis=1)
+            - np.gradient(rows, axis=1) * np.gradient(cols, axis=0)
+        )
+        / every**2
     )
     side = np.sqrt(np.nanmedian(area)) if np.isfinite(area).any() else 1.0
     return max(1, int(side))

@@ -8,7 +8,13 @@ from pcnav_study.scene.grid import Grid
 from pcnav_study.scene.relief import fractal_relief, jacksboro, slope_aspect
 from pcnav_study.scene.render import render
 from pcnav_study.scene.shading import cast_shadows, shade
-from pcnav_study.scene.sun import SunPosition, azimuth_difference, sun_position
+from pcnav_study.scene.sun import (
+    SunPosition,
+    azimuth_difference,
+    solar_time,
+    sun_position,
+    time_of_azimuth,
+)
 
 __all__ = [
     "Camera",
@@ -25,6 +31,8 @@ __all__ = [
     "render",
     "shade",
     "slope_aspect",
+    "solar_time",
     "sun_position",
+    "time_of_azimuth",
     "waypoints",
 ]

@@ -116,7 +116,27 @@ class Camera:
 
     def project(self, points: Array, pose: Pose) -> tuple[Array, Array]:
         """(row, column) of world points (..., 3); NaN for points behind the camera."""
-        x, y, z = np.moveaxis((points - pose.position) @ pose.rotation, -1, 0)
+        return self._seen(*np.moveaxis((points - pose.position) @ pose.rotation, -1, 0))
+
+    def project_map(
+        self, east: Array, north: Array, height: ArrayLike, pose: Pose
+    ) -> tuple[Array, Array]:
+        """(row, column), each (rows, columns), of a map's pixels; as `project`, but sooner.
+
+        Parameters
+        ----------
+        east : (columns,)
+        north : (rows,)
+        height : (rows, columns) or a number
+        """
+        right, top = east - pose.east, (north - pose.north)[:, None]
+        up = np.asarray(height, np.float64) - pose.height
+        turn = pose.rotation
+        x, y, z = (up * turn[2, k] + turn[0, k] * right + turn[1, k] * top for k in range(3))
+        return self._seen(x, y, z)
+
+    def _seen(self, x: Array, y: Array, z: Array) -> tuple[Array, Array]:
+        """(row, column) of points in camera axes."""
         depth = np.where(z < 0, -z, np.nan)
         right, down = x / depth, -y / depth
         if any(self.distortion):

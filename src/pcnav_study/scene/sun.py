@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 import pvlib
 
@@ -63,3 +64,44 @@ def sun_position(time: str | pd.Timestamp, latitude: float, longitude: float) ->
 def azimuth_difference(one: SunPosition, other: SunPosition) -> float:
     """Unsigned difference of azimuth, 0 to 180 degrees."""
     return abs((one.azimuth - other.azimuth + 180) % 360 - 180)
+
+
+def solar_time(day: str, hour: float, longitude: float) -> pd.Timestamp:
+    """Moment, in UTC, at which the mean solar clock of a meridian shows ``hour`` on ``day``.
+
+    Raises
+    ------
+    InputError
+        If the day cannot be read.
+    """
+    try:
+        midnight = pd.Timestamp(day).normalize()
+    except ValueError as error:
+        raise InputError(f"day {day!r} is no date; write it as in '2016-06-21'") from error
+    if midnight.tzinfo is not None:
+        raise InputError(f"day {day!r} has a time zone; give the date alone")
+    moment = midnight + pd.Timedelta(hours=hour - longitude / 15)
+    return moment.round("s").tz_localize("UTC")
+
+
+def time_of_azimuth(
+    day: str, azimuth: float, latitude: float, longitude: float, highest_zenith: float = 80.0
+) -> pd.Timestamp:
+    """Moment of a solar day, to the minute, at which the sun stands in an azimuth.
+
+    Raises
+    ------
+    InputError
+        If it never does with its zenith below ``highest_zenith``.
+    """
+    first = solar_time(day, 0.0, longitude)
+    minutes = pd.date_range(first, periods=24 * 60, freq="min")
+    path = pvlib.solarposition.get_solarposition(minutes, latitude, longitude, method="nrel_numpy")
+    away = ((path["azimuth"] - azimuth + 180) % 360 - 180).abs()
+    away = away.where(path["zenith"] < highest_zenith, np.inf)
+    if not away.min() < 1.0:
+        raise InputError(
+            f"on {day} the sun never stands at azimuth {azimuth % 360:.0f} higher than "
+            f"{90 - highest_zenith:.0f} degrees; choose a longer day or another map hour"
+        )
+    return pd.Timestamp(minutes[int(away.to_numpy().argmin())])
