@@ -1,4 +1,4 @@
-"""What both datasets share: a versioned file on a local disk."""
+"""What these datasets share: a versioned file on a local disk."""
 
 from __future__ import annotations
 
