@@ -5,7 +5,7 @@ import warnings
 from kedro.framework.project import find_pipelines
 from kedro.pipeline import Pipeline
 
-ON_REQUEST = {"flight", "flight_robustness", "benchmark", "pairs", "recalibration"}
+ON_REQUEST = {"flight", "flight_robustness", "benchmark", "pairs", "recalibration", "navigate"}
 
 
 def register_pipelines() -> dict[str, Pipeline]:

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from pcnav_study.matching import METHODS
+from pcnav_study.navigation.loop import NAVIGATORS, Setup
 
 
 def _known(method: str) -> str:
@@ -15,6 +16,13 @@ def _known(method: str) -> str:
     return method
 
 
+def _known_navigator(name: str) -> str:
+    if name not in NAVIGATORS:
+        raise ValueError(f"navigator {name!r} is unknown; use one of: {'; '.join(NAVIGATORS)}")
+    return name
+
+
+NavigatorName = Annotated[str, AfterValidator(_known_navigator)]
 Method = Annotated[str, AfterValidator(_known)]
 
 
@@ -203,3 +211,52 @@ class Pairs(Parameters):
     trials: int = Field(ge=1)
     tolerance_px: float = Field(gt=0)
     seed: int
+
+
+class Mission(Parameters):
+    """One simulated flight under several navigators; ``route`` is in shares of the map."""
+
+    site: str
+    day: str
+    map_hour: float = Field(ge=0, lt=24)
+    sun_difference: float = Field(ge=-180, le=180)
+    route: list[tuple[float, float]] = Field(min_length=2)
+    gust: float = Field(ge=0)
+    gust_step: int = Field(ge=1)
+    methods: list[NavigatorName] = Field(min_length=1)
+    seed: int = Field(ge=0)
+    setup: Setup
+
+
+class ByDifference(Parameters):
+    """Suns of one day, by their azimuths' difference from the map's, degrees."""
+
+    day: str
+    map_hour: float = Field(ge=0, lt=24)
+    differences: list[Annotated[float, Field(ge=-180, le=180)]]
+
+
+class ByHour(Parameters):
+    """Suns of several days, by the hour."""
+
+    days: list[str]
+    map_hour: float = Field(ge=0, lt=24)
+    hours: list[float]
+    lowest_sun: float = Field(ge=0, lt=90)
+
+
+class Navigate(Parameters):
+    """Fleets of simulated flights."""
+
+    sites: list[str] = Field(min_length=1)
+    by_difference: ByDifference
+    by_hour: ByHour
+    gusts: list[Annotated[float, Field(ge=0)]] = Field(min_length=1)
+    methods: list[NavigatorName] = Field(min_length=1)
+    flights: int = Field(ge=1)
+    seed: int = Field(ge=0)
+    timed_frames_px: list[Annotated[int, Field(ge=64, le=600)]] = Field(min_length=1)
+    timed_flights: int = Field(ge=1)
+    jobs: int
+    backend: str
+    setup: Setup
