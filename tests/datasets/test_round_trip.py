@@ -8,9 +8,9 @@ import pytest
 import rasterio
 import xarray as xr
 from affine import Affine
-from kedro.io import Version
+from kedro.io import DatasetError, Version
 
-from pcnav_study.datasets import GeoTIFFDataset, NetCDFDataset
+from pcnav_study.datasets import GeoTIFFDataset, JSONLinesDataset, NetCDFDataset
 from pcnav_study.errors import InputError
 from pcnav_study.scene import Grid, jacksboro
 
@@ -125,3 +125,49 @@ def test_map_without_crs_is_refused_by_name(tmp_path):
     with pytest.raises(Exception, match=r"bare\.tif has no CRS; assign one") as caught:
         GeoTIFFDataset(filepath=str(path)).load()
     assert isinstance(caught.value.__cause__ or caught.value, InputError)
+
+
+def log_rows():
+    yield {"step": 0, "error": np.float64(1.5), "far": float("nan"), "corners": [[1.0, 2.0]]}
+    yield {"step": 1, "error": 2.5, "far": float("inf"), "corners": [[3.0, 4.0]]}
+    yield {"step": 2, "error": np.int64(3), "far": 0.25, "corners": []}
+
+
+def test_a_log_comes_back_row_by_row(tmp_path):
+    version = Version(None, "2026-01-01T00.00.00.000Z")
+    log = JSONLinesDataset(filepath=str(tmp_path / "log.jsonl"), version=version)
+    log.save(log_rows())
+    back = JSONLinesDataset(filepath=str(tmp_path / "log.jsonl"), version=Version(None, None))
+    table = back.load()
+    assert table["step"].tolist() == [0, 1, 2]
+    assert table["error"].tolist() == [1.5, 2.5, 3.0]
+    assert np.isnan(table["far"][:2]).all() and table["far"][2] == 0.25
+    assert table["corners"][1] == [[3.0, 4.0]]
+
+
+def test_a_log_that_breaks_off_is_readable_up_to_there(tmp_path):
+    def crashing():
+        yield from log_rows()
+        raise RuntimeError("engine failure")
+
+    version = Version(None, "2026-01-01T00.00.00.000Z")
+    log = JSONLinesDataset(filepath=str(tmp_path / "log.jsonl"), version=version)
+    with pytest.raises(DatasetError, match="engine failure"):
+        log.save(crashing())
+    assert len(log.load()) == 3
+
+
+def test_a_log_is_on_the_disk_while_it_grows_and_a_cut_line_is_left_out(tmp_path):
+    log = JSONLinesDataset(filepath=str(tmp_path / "log.jsonl"))
+    seen = []
+
+    def watched():
+        for row in log_rows():
+            yield row
+            seen.append(len((tmp_path / "log.jsonl").read_text().splitlines()))
+
+    log.save(watched())
+    assert seen == [1, 2, 3]
+    text = (tmp_path / "log.jsonl").read_text()
+    (tmp_path / "log.jsonl").write_text(text[:-9])
+    assert log.load()["step"].tolist() == [0, 1]

@@ -67,7 +67,7 @@ def azimuth_difference(one: SunPosition, other: SunPosition) -> float:
 
 
 def solar_time(day: str, hour: float, longitude: float) -> pd.Timestamp:
-    """Moment, in UTC, at which the mean solar clock of a meridian shows ``hour`` on ``day``.
+    """When a meridian's mean solar clock shows ``hour`` on ``day``: UTC, to the minute.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def solar_time(day: str, hour: float, longitude: float) -> pd.Timestamp:
     if midnight.tzinfo is not None:
         raise InputError(f"day {day!r} has a time zone; give the date alone")
     moment = midnight + pd.Timedelta(hours=hour - longitude / 15)
-    return moment.round("s").tz_localize("UTC")
+    return moment.round("min").tz_localize("UTC")
 
 
 def time_of_azimuth(

@@ -36,7 +36,7 @@ SETTLE_REACH = 8  # px
 SETTLINGS = 3  # times a frame is rectified anew at most
 STRIDES = 8  # tried from the goal of the forward part back to the frame's middle
 SMALLEST_PX = 24  # side of a square that is worth matching
-FORWARD = 0.6  # side of the forward part over the full square's
+FORWARD = 0.75  # side of the forward part over the full square's
 MAP_SHARE = 0.3  # of a search area that must hold map data
 LOST = Trust(0.0, True, float("inf"), NOTHING)
 
