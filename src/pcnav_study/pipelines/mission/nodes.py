@@ -18,7 +18,7 @@ from pcnav_study.navigation.loop import (
     place,
 )
 from pcnav_study.navigation.loop.closed_loop import Mission as Flight
-from pcnav_study.pipelines.navigate.sites import elevation_of
+from pcnav_study.navigation.loop.sites import elevation_of
 from pcnav_study.pipelines.parameters import Mission
 from pcnav_study.progress import progress
 from pcnav_study.scene import Grid

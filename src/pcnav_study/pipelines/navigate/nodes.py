@@ -21,7 +21,7 @@ from pcnav_study.navigation.loop import (
     navigation_summary,
     step_times,
 )
-from pcnav_study.pipelines.navigate.sites import elevation_of
+from pcnav_study.navigation.loop.sites import elevation_of
 from pcnav_study.pipelines.parameters import Navigate
 from pcnav_study.progress import progress
 
