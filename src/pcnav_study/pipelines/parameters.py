@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from pcnav_study.matching import METHODS
 from pcnav_study.navigation.loop import NAVIGATORS, Setup
@@ -22,6 +22,12 @@ def _known_navigator(name: str) -> str:
     return name
 
 
+def _listed(value: Any) -> Any:
+    """A single name, as the command line gives it, as a list."""
+    return [value] if isinstance(value, str) else value
+
+
+Sites = Annotated[list[str], BeforeValidator(_listed), Field(min_length=1)]
 NavigatorName = Annotated[str, AfterValidator(_known_navigator)]
 Method = Annotated[str, AfterValidator(_known)]
 
@@ -248,7 +254,7 @@ class ByHour(Parameters):
 class Navigate(Parameters):
     """Fleets of simulated flights."""
 
-    sites: list[str] = Field(min_length=1)
+    sites: Sites
     by_difference: ByDifference
     by_hour: ByHour
     gusts: list[Annotated[float, Field(ge=0)]] = Field(min_length=1)
