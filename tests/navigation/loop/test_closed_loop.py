@@ -128,12 +128,19 @@ def test_a_route_off_the_map_is_refused_before_take_off(flight):
 
 def test_a_flight_into_the_summits_is_refused(flight):
     with pytest.raises(InputError, match="meets the summits"):
-        flight(frame_px=14.0, field_of_view=110.0)
+        flight(frame_px=14.0, field_of_view=80.0)
 
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"leg_px": 0.5}, {"speed": 0.0}, {"turbulence": -1.0}, {"haze": 1.0}, {"field_of_view": 150}],
+    [
+        {"leg_px": 0.5},
+        {"speed": 0.0},
+        {"turbulence": -1.0},
+        {"haze": 1.0},
+        {"field_of_view": 150},
+        {"attitude_sigma": 20},
+    ],
 )
 def test_settings_that_make_no_sense_are_refused(flight, wrong):
     with pytest.raises(InputError):

@@ -7,7 +7,8 @@ import pytest
 
 from pcnav_study.errors import InputError
 from pcnav_study.navigation.loop.chart import Chart
-from pcnav_study.navigation.loop.lookout import Lookout, _inscribed
+from pcnav_study.navigation.loop.lookout import Lookout
+from pcnav_study.navigation.loop.patch import inscribed
 from pcnav_study.navigation.loop.sensors import Sensors
 from pcnav_study.navigation.loop.world import Air, Aircraft
 
@@ -74,7 +75,7 @@ def test_the_inscribed_square_is_the_largest_that_fits(rng):
         rot = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
         unit = np.array([[-1, -1], [-1, 1], [1, 1], [1, -1]]) / 2
         corners = (unit * sides) @ rot.T + 100
-        low, high = _inscribed(corners)
+        low, high = inscribed(corners)
         half = (high - low)[0] / 2
         square = np.array([[-1, -1], [-1, 1], [1, 1], [1, -1]])
 

@@ -12,7 +12,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -21,12 +20,12 @@ from numpy.typing import NDArray
 from pcnav_study.errors import InputError
 from pcnav_study.frames.rectify import rectify
 from pcnav_study.matching import MatchResult, match, prepare
-from pcnav_study.navigation.loop.chart import Chart, Corner
+from pcnav_study.navigation.loop.chart import Chart
+from pcnav_study.navigation.loop.patch import Patch, block_means, inscribed
 from pcnav_study.navigation.loop.sensors import Observation
 from pcnav_study.quality.evidence import NOTHING
 from pcnav_study.quality.trust import Trust, trust
 from pcnav_study.scene.camera import Camera, Pose
-from pcnav_study.scene.sun import SunPosition
 
 Array = NDArray[np.float64]
 SETTLED_PX = 1.5  # a larger shift moves the relief under the frame: rectify anew
@@ -34,69 +33,9 @@ COARSE_PX = 64  # side to which a wide search may shrink the frame
 COARSE_REACH = 32  # px, from where on a search is wide
 SETTLE_REACH = 8  # px
 SETTLINGS = 3  # times a frame is rectified anew at most
-STRIDES = 8  # tried from the goal of the forward part back to the frame's middle
-SMALLEST_PX = 24  # side of a square that is worth matching
 FORWARD = 0.75  # side of the forward part over the full square's
 MAP_SHARE = 0.3  # of a search area that must hold map data
 LOST = Trust(0.0, True, float("inf"), NOTHING)
-
-
-@dataclass(frozen=True)
-class Patch:
-    """A frame on the map's pixels.
-
-    Attributes
-    ----------
-    values : (rows, columns)
-        NaN outside the picture.
-    corner : (row, column)
-        Of the map's pixel that is its first.
-    middle : (row, column)
-        Its own pixel in the middle of the picture.
-    at : (east, north)
-        From where it was rectified.
-    """
-
-    values: NDArray[np.float32]
-    corner: Corner
-    middle: tuple[float, float]
-    at: Array
-
-    def part(self, corner: Corner, shape: tuple[int, int]) -> Patch:
-        """A window of it; ``corner`` counts from its own first pixel."""
-        (row, col), (rows, cols) = corner, shape
-        place = (self.corner[0] + row, self.corner[1] + col)
-        middle = (self.middle[0] - row, self.middle[1] - col)
-        return Patch(self.values[row : row + rows, col : col + cols], place, middle, self.at)
-
-    @cached_property
-    def square(self) -> Patch | None:
-        """The largest square about its middle that lies wholly in the picture."""
-        (rows, cols), (row, col) = self.values.shape, self.middle
-        half = min(row, col, rows - 1 - row, cols - 1 - col) + 0.5
-        missing = np.isnan(self.values)
-        if missing.any():
-            away = np.maximum(np.abs(np.arange(rows) - row)[:, None], np.abs(np.arange(cols) - col))
-            half = min(half, float(away[missing].min()) - 0.5)
-        return self.about(self.middle, int(2 * half) // 2 * 2)
-
-    def about(self, centre: tuple[float, float], side: int) -> Patch | None:
-        """The square of ``side`` px about a pixel (row, column); None if it is too small."""
-        corner = [round(c - (side - 1) / 2) for c in centre]
-        if side < SMALLEST_PX or min(corner) < 0:
-            return None
-        part = self.part((corner[0], corner[1]), (side, side))
-        return part if part.values.shape == (side, side) else None
-
-    def towards(self, goal: tuple[float, float], side: int) -> Patch | None:
-        """The square of ``side`` px, wholly in the picture, that lies nearest to ``goal``."""
-        middle = np.array(self.middle)
-        for share in np.linspace(1, 0, STRIDES + 1).tolist():
-            row, col = middle + share * (np.array(goal) - middle)
-            part = self.about((row, col), side)
-            if part is not None and np.isfinite(part.values).all():
-                return part
-        return None
 
 
 class Sight(NamedTuple):
@@ -130,8 +69,6 @@ class Lookout:
     camera : Camera
     method : str
         A name in ``METHODS``.
-    suns : pair of SunPosition
-        Of the map and of the flight; only ``pc-solar`` uses them.
 
     Attributes
     ----------
@@ -142,7 +79,6 @@ class Lookout:
     chart: Chart
     camera: Camera
     method: str = "pc-sectors"
-    suns: tuple[SunPosition, SunPosition] | None = None
     seconds: dict[str, float] = field(default_factory=dict)
 
     def look(self, seen: Observation, at: Array, reach: int, *, whole: bool = False) -> Sight:
@@ -184,7 +120,7 @@ class Lookout:
         rows, cols = self.chart.grid.row_col(*self.camera.footprint(pose, level).T)
         corners = np.stack([rows, cols], axis=1)
         if not whole:
-            corners = _inscribed(corners)
+            corners = inscribed(corners)
         first, last = np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0))
         corner = int(first[0]), int(first[1])
         shape = int(last[0] - first[0]) + 1, int(last[1] - first[1]) + 1
@@ -213,9 +149,9 @@ class Lookout:
         with self._timed("match"):
             reach = -(-reach // coarse) * coarse
             area = self._around(part, np.zeros(2), reach)
-            moving = prepare(_blocks(part.values, coarse), "moving")
-            reference = prepare(_blocks(area, coarse), "reference")
-            result = match(reference, moving, self.method, self.suns, reach // coarse)
+            moving = prepare(block_means(part.values, coarse), "moving")
+            reference = prepare(block_means(area, coarse), "reference")
+            result = match(reference, moving, self.method, max_shift=reach // coarse)
         with self._timed("trust"):
             trusted = trust(result, reference, moving)
         position = self._located(part, np.zeros(2), coarse * result.shift)
@@ -223,7 +159,7 @@ class Lookout:
 
     def _match(self, part: Patch, start: Array, reach: int) -> MatchResult:
         around = self._around(part, start, reach)
-        return match(around, part.values, self.method, self.suns, reach)
+        return match(around, part.values, self.method, max_shift=reach)
 
     def _around(self, part: Patch, start: Array, reach: int) -> NDArray[np.float32]:
         """The reference ``reach`` px around a part moved by ``start`` (row, column) px."""
@@ -250,27 +186,3 @@ class Lookout:
         before = time.perf_counter()
         yield
         self.seconds[part] = self.seconds.get(part, 0.0) + time.perf_counter() - before
-
-
-def _blocks(image: NDArray[np.float32], size: int) -> NDArray[np.float32]:
-    """Means of size x size px blocks about the middle; NaN where a pixel of a block is."""
-    if size == 1:
-        return image
-    cuts = [slice((n % size) // 2, (n % size) // 2 + n // size * size) for n in image.shape]
-    whole = image[cuts[0], cuts[1]]
-    rows, cols = (n // size for n in whole.shape)
-    means: NDArray[np.float32] = whole.reshape(rows, size, cols, size).mean(axis=(1, 3))
-    return means
-
-
-def _inscribed(corners: Array) -> Array:
-    """Two opposite corners of the largest upright square about the middle of a convex quadrangle.
-
-    Corners are (4, 2) rows and columns, in order.
-    """
-    middle = corners.mean(axis=0)
-    edges = np.roll(corners, -1, axis=0) - corners
-    normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
-    distances = np.abs(((corners - middle) * normals).sum(axis=1))
-    half = float((distances / np.abs(normals).sum(axis=1)).min())
-    return np.stack([middle - half, middle + half])

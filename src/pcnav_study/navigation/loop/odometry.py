@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from pcnav_study.errors import InputError
 from pcnav_study.matching import match
 from pcnav_study.navigation.loop.estimators import Belief
-from pcnav_study.navigation.loop.lookout import Lookout, Patch
+from pcnav_study.navigation.loop.lookout import Lookout
+from pcnav_study.navigation.loop.patch import SMALLEST_PX, Patch
 from pcnav_study.navigation.loop.sensors import Observation
 
 Array = NDArray[np.float64]
 REACH_PX = 12
-SMALLEST_PX = 24  # side of common ground worth matching
 SIGMA_PX = 0.2  # of one frame-to-frame match, each axis
 
 

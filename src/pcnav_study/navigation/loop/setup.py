@@ -93,6 +93,11 @@ class Setup:
             )
         if self.leg_px < 1:
             raise InputError("waypoints lie closer than a map pixel; give a leg_px of 1 or more")
+        if 4 * self.attitude_sigma + 0.71 * self.field_of_view > 85:
+            raise InputError(
+                f"with an attitude_sigma of {self.attitude_sigma:g} degrees the camera would see "
+                "the horizon; lower it or the field of view"
+            )
         if min(self.wind, self.turbulence, self.noise, self.attitude_sigma) < 0:
             raise InputError("wind, turbulence, noise and attitude cannot be negative")
         if not (0 <= self.haze < 1 and 0 <= self.failed_share <= 1):
