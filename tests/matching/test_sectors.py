@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from pcnav_study.matching import match
-from pcnav_study.matching.overlap import SECTORS, overlap_of
+from pcnav_study.matching.overlap import SECTORS, band_of, light_patterns, overlap_of
 from pcnav_study.matching.pair import Pair
 from pcnav_study.matching.phase import Search, _sun_pattern, cross_power, phase_correlation
-from pcnav_study.matching.sectors import sector_bank
+from pcnav_study.matching.sectors import pattern_bank
 from pcnav_study.matching.windows import prepare
 from pcnav_study.scene import SunPosition, fractal_relief
 from pcnav_study.scene.trials import Conditions, Site
@@ -68,15 +68,25 @@ def test_sun_pattern_is_the_sign_of_the_measured_spectrum(difference, make_pair)
     measured = np.sign(cross_power(task, search, ("tukey", 0.25)).real)
     suns = (pair.sun[0].azimuth, pair.sun[1].azimuth)
     predicted = np.sign(_sun_pattern((128, 128), suns, (1.0, 1.0)))
-    low = sector_bank((128, 128), 1).sum(axis=0) > 0.5
+    low = pattern_bank((128, 128), 1)[0] > 0.5
     assert np.mean((measured == predicted)[low]) > 0.85
 
 
 def test_sectors_part_the_spectrum():
-    bank = sector_bank((96, 128), 1)
+    bank = band_of((96, 128)).bank
     assert bank.shape[0] == SECTORS
-    assert np.all((bank > 0).sum(axis=0).ravel()[1:] == 1)
-    assert bank[:, 0, 0].sum() == 0
+    assert np.all((bank > 0).sum(axis=0) <= 1)
+    assert bank.sum() == pytest.approx(1, abs=1e-5)
+
+
+@pytest.mark.parametrize("azimuths", [(0.0, 0.0), (20.0, 75.0), (200.0, 310.0), (45.0, 225.0)])
+def test_light_patterns_make_up_the_light_of_any_two_suns(azimuths):
+    rows, cols = np.meshgrid(np.linspace(-0.3, 0.3, 13), np.linspace(0.01, 0.3, 9), indexing="ij")
+    bearing = np.arctan2(cols, -rows)
+    one, other = (np.cos(bearing - np.radians(azimuth)) for azimuth in azimuths)
+    patterns = light_patterns(rows, cols).reshape(3, -1)
+    shares = np.linalg.lstsq(patterns.T, (one * other).ravel(), rcond=None)[0]
+    np.testing.assert_allclose(shares @ patterns, (one * other).ravel(), atol=1e-12)
 
 
 def test_sectors_flip_where_two_suns_disagree(make_pair):

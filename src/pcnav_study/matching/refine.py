@@ -1,7 +1,7 @@
 """From a coarse shift to a sub-pixel one: read the signs, repair the spectrum, fit it.
 
-Both windows are first cropped to their overlap. Sector energy, pixel by pixel, finds the
-summit there without regard to any sign; at the summit each sector's sign is read off.
+Both windows are first cropped to their overlap. The energy of the light patterns, pixel by
+pixel, finds the summit there; at the summit each sector's sign is read off.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def refined(
 
 
 def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-    """The highest sector energy within ``around`` px.
+    """The highest energy of the light patterns within ``around`` px.
 
     Returns
     -------
@@ -55,23 +55,21 @@ def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[
         _waves(omega.size, float(omega[-1]), bool(omega[0] < 0), around)
         for omega in overlap.band[:2]
     )
-    surfaces = np.matmul(np.matmul(rows, overlap.band.bank * overlap.phasors), cols.T).real
-    total = robust_energy(surfaces)
+    surfaces = np.matmul(np.matmul(rows, overlap.band.patterns * overlap.phasors), cols.T).real
+    total = energy(surfaces)
     row, col = divmod(int(total.argmax()), total.shape[1])
-    residual = np.array([row - around, col - around]) + quadratic_peak(total, (row, col))
-    return residual, surfaces[:, row, col]
+    whole = np.array([row - around, col - around], float)
+    return whole + quadratic_peak(total, (row, col)), overlap.sector_sums(whole)
 
 
-def robust_energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Sum over the sectors (sectors, rows, columns) of the modulus to the power 3/2.
+def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Sum over the light patterns (patterns, rows, columns) of the squared surface.
 
-    Squares would let one strong sector, where the light is least linear, decide. Signs must
-    not count: a flipped sector is positive half a wave, some 2 px, beside the true shift, so
-    that a preference for positive sectors moves the summit there.
+    Half a wave, some 2 px, beside the true shift sectors turn their sign one by one; only at
+    the shift do their heights follow the light.
     """
-    modulus = np.abs(surfaces)
-    modulus *= np.sqrt(modulus)
-    total: NDArray[np.float32] = modulus.sum(axis=0)
+    squared = surfaces * surfaces
+    total: NDArray[np.float32] = squared.sum(axis=0)
     return total
 
 

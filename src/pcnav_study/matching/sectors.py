@@ -1,11 +1,12 @@
-"""Sector energy: phase correlation that no sun can break.
+"""Pattern energy: phase correlation that no sun can break.
 
 Between two suns the cross-power spectrum of a shaded relief keeps its fringes and flips
-its sign in whole angular sectors (`phase`). Cut it into sectors, transform each, and add
-the squared surfaces: every sector peaks at the same shift, whatever its sign. Nothing
-about the suns is needed. The correlation of doubled gradient orientation is added for
-ground where edges say more than shading does. Each of the two surfaces counts in units
-of its own scatter.
+its sign in whole angular sectors (`phase`). As a function of the angle that sign follows a
+constant and a wave of twice the angle, whatever the suns (`overlap.light_patterns`).
+Weight the spectrum with each of these three, transform, and add the squared surfaces:
+their sum peaks at the shift, and nothing about the suns is needed. The correlation of
+doubled gradient orientation is added for ground where edges say more than shading does.
+Each of the two surfaces counts in units of its own scatter.
 
 The search runs on a grid as coarse as the low-pass allows. At its peak each sector's
 sign is read, the spectrum of the overlap is repaired, and its phase plane fitted.
@@ -20,10 +21,10 @@ from numpy.typing import NDArray
 
 from pcnav_study.matching import spectrum as sp
 from pcnav_study.matching.orientation import orientation_spectrum
-from pcnav_study.matching.overlap import SECTORS, sector_of
+from pcnav_study.matching.overlap import light_patterns
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
-from pcnav_study.matching.refine import refined
+from pcnav_study.matching.refine import energy, refined
 from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
@@ -37,10 +38,10 @@ TAPER = ("tukey", 0.25)
 
 
 def sector_phase_correlation(pair: Pair) -> Found:
-    """The default method: sector energy, then signs, repair and a sub-pixel estimate.
+    """The default method: pattern energy, then signs, repair and a sub-pixel estimate.
 
     Peaks of nearly the same height are all looked at; the best sum of quality there and
-    height here wins. The last search, pixel by pixel, is by sector energy alone: near the
+    height here wins. The last search, pixel by pixel, is by pattern energy alone: near the
     true shift gradients turn with the sun, so that their correlation peaks some 2 px off it.
     """
     score = score_surface(pair)
@@ -53,30 +54,23 @@ def sector_phase_correlation(pair: Pair) -> Found:
     return max(answers, key=lambda answer: answer[0])[1]
 
 
-def sector_spectra(pair: Pair, search: Search) -> sp.Spectrum:
-    """Cross-power spectrum of each sector, and last the orientation's, (SECTORS + 1, ...)."""
+def pattern_spectra(pair: Pair, search: Search) -> sp.Spectrum:
+    """Cross-power spectrum times each light pattern, and last the orientation's, (4, ...)."""
     product = cross_power(pair, search, TAPER)
-    stack = np.empty((SECTORS + 1, *product.shape), np.complex64)
-    np.multiply(product, sector_bank(search.shape, search.step), out=stack[:-1])
+    stack = np.empty((4, *product.shape), np.complex64)
+    np.multiply(product, pattern_bank(search.shape, search.step), out=stack[:-1])
     _orientation_product(pair, search, out=stack[-1])
     return stack
 
 
 def score_surface(pair: Pair) -> Surface:
-    """Sector energy plus orientation correlation of every candidate shift."""
+    """Pattern energy plus orientation correlation of every candidate shift."""
     search = Search.of(pair, step_of(pair.reference.shape))
-    spectra = sector_spectra(pair, search)
+    spectra = pattern_spectra(pair, search)
     surfaces = sp.part_of_surface(spectra, search.shape[1] // search.step, search.size)
     score = _in_scatter(energy(surfaces[:-1]))
     score += np.float32(ORIENTATION) * _in_scatter(surfaces[-1])
     return search.surface(pair, score)
-
-
-def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Sum of the squared surfaces (sectors, rows, columns)."""
-    squared = surfaces * surfaces
-    total: NDArray[np.float32] = squared.sum(axis=0)
-    return total
 
 
 def step_of(shape: tuple[int, int]) -> int:
@@ -86,16 +80,14 @@ def step_of(shape: tuple[int, int]) -> int:
 
 
 @lru_cache(maxsize=64)
-def sector_bank(shape: tuple[int, int], step: int) -> NDArray[np.float32]:
-    """Low-passed indicator of each angular sector, (SECTORS, rows, columns)."""
+def pattern_bank(shape: tuple[int, int], step: int) -> NDArray[np.float32]:
+    """Low-passed light patterns, (3, rows, columns)."""
     f_rows, f_cols = sp.frequencies(shape, step)
     squared = f_rows**2 + f_cols**2
     weight = np.exp(-0.5 * squared / BAND**2) * (squared > 0)
     if step > 1:
         weight *= (f_rows > -0.5 / step) & (f_cols < 0.5 / step)
-    bank: NDArray[np.float32] = (
-        (sector_of(f_rows, f_cols) == np.arange(SECTORS)[:, None, None]) * weight
-    ).astype(np.float32)
+    bank: NDArray[np.float32] = (light_patterns(f_rows, f_cols) * weight).astype(np.float32)
     bank.flags.writeable = False
     return bank
 
