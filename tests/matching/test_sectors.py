@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from pcnav_study.matching import match
-from pcnav_study.matching.overlap import SECTORS, overlap_of
+from pcnav_study.matching.overlap import SECTORS, band_of, light_patterns, overlap_of
 from pcnav_study.matching.pair import Pair
 from pcnav_study.matching.phase import Search, _sun_pattern, cross_power, phase_correlation
-from pcnav_study.matching.sectors import sector_bank
+from pcnav_study.matching.sectors import pattern_bank
 from pcnav_study.matching.windows import prepare
+from pcnav_study.scene import SunPosition, fractal_relief
+from pcnav_study.scene.trials import Conditions, Site
 
 
 @pytest.mark.parametrize("difference", range(0, 181, 15))
@@ -18,6 +20,17 @@ def test_every_azimuth_difference(difference, size, make_pair):
     found = match(pair.reference, pair.moving)
     assert np.hypot(*(found.shift - pair.shift)) < 0.25
     assert found.quality > 0.4
+
+
+@pytest.mark.parametrize("seed", [3, 8, 9])
+def test_a_flipped_sector_does_not_pull_the_summit_half_a_wave_aside(seed):
+    """Half a wave, some 2 px, beside the true shift every sector is positive."""
+    heights = fractal_relief((300, 300), (30.0, 30.0), np.random.default_rng(seed))
+    site = Site(heights, (30.0, 30.0), seed=seed + 100)
+    suns = SunPosition(120.0, 45.0), SunPosition(270.0, 45.0)
+    trials = site.draw(Conditions(*suns, albedo_contrast=0.3), 128, 12, np.random.default_rng(1))
+    for reference, moving, shift in zip(trials.reference, trials.moving, trials.shift, strict=True):
+        assert np.hypot(*(match(reference, moving).shift - shift)) < 1
 
 
 def test_plain_peak_turns_negative_with_the_sun_and_vanishes_between(make_pair):
@@ -55,15 +68,25 @@ def test_sun_pattern_is_the_sign_of_the_measured_spectrum(difference, make_pair)
     measured = np.sign(cross_power(task, search, ("tukey", 0.25)).real)
     suns = (pair.sun[0].azimuth, pair.sun[1].azimuth)
     predicted = np.sign(_sun_pattern((128, 128), suns, (1.0, 1.0)))
-    low = sector_bank((128, 128), 1).sum(axis=0) > 0.5
+    low = pattern_bank((128, 128), 1)[0] > 0.5
     assert np.mean((measured == predicted)[low]) > 0.85
 
 
 def test_sectors_part_the_spectrum():
-    bank = sector_bank((96, 128), 1)
+    bank = band_of((96, 128)).bank
     assert bank.shape[0] == SECTORS
-    assert np.all((bank > 0).sum(axis=0).ravel()[1:] == 1)
-    assert bank[:, 0, 0].sum() == 0
+    assert np.all((bank > 0).sum(axis=0) <= 1)
+    assert bank.sum() == pytest.approx(1, abs=1e-5)
+
+
+@pytest.mark.parametrize("azimuths", [(0.0, 0.0), (20.0, 75.0), (200.0, 310.0), (45.0, 225.0)])
+def test_light_patterns_make_up_the_light_of_any_two_suns(azimuths):
+    rows, cols = np.meshgrid(np.linspace(-0.3, 0.3, 13), np.linspace(0.01, 0.3, 9), indexing="ij")
+    bearing = np.arctan2(cols, -rows)
+    one, other = (np.cos(bearing - np.radians(azimuth)) for azimuth in azimuths)
+    patterns = light_patterns(rows, cols).reshape(3, -1)
+    shares = np.linalg.lstsq(patterns.T, (one * other).ravel(), rcond=None)[0]
+    np.testing.assert_allclose(shares @ patterns, (one * other).ravel(), atol=1e-12)
 
 
 def test_sectors_flip_where_two_suns_disagree(make_pair):

@@ -36,6 +36,8 @@ class Band(NamedTuple):
         Angular frequencies, radians/px; along the rows ascending, along the columns from 0.
     bank : (sectors, r, c) float32
         Low-pass of each angular sector, all together of unit sum.
+    patterns : (3, r, c) float32
+        The same low-pass times each of `light_patterns`.
     sharper : (r, c) float32
         What turns the search's low-pass into the fit's.
     """
@@ -43,6 +45,7 @@ class Band(NamedTuple):
     omega_rows: NDArray[np.float32]
     omega_cols: NDArray[np.float32]
     bank: NDArray[np.float32]
+    patterns: NDArray[np.float32]
     sharper: NDArray[np.float32]
 
 
@@ -115,7 +118,18 @@ def band_of(shape: tuple[int, int]) -> Band:
     bank = (which == np.arange(SECTORS)[:, None, None]) * weight
     omega = [(2 * np.pi * f.ravel()).astype(np.float32) for f in (rows, cols)]
     sharper = np.exp(-0.5 * squared * (FIT_BAND**-2 - SEARCH_BAND**-2))
-    return Band(omega[0], omega[1], bank.astype(np.float32), sharper.astype(np.float32))
+    patterns = light_patterns(rows, cols) * weight
+    return Band(omega[0], omega[1], *(t.astype(np.float32) for t in (bank, patterns, sharper)))
+
+
+def light_patterns(rows: NDArray[np.float64], cols: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What two suns can make of a cross-power spectrum, of equal power: (3, r, c).
+
+    The product ``cos(theta - tau1) cos(theta - tau2)`` is a constant and a wave of twice the
+    angle; light that no azimuth turns, as of reflectance, adds to the constant.
+    """
+    twice = 2 * np.arctan2(rows, cols)
+    return np.stack((np.ones_like(twice), 2**0.5 * np.cos(twice), 2**0.5 * np.sin(twice)))
 
 
 def sector_of(rows: NDArray[np.float64], cols: NDArray[np.float64]) -> NDArray[np.intp]:

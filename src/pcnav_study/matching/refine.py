@@ -1,7 +1,7 @@
 """From a coarse shift to a sub-pixel one: read the signs, repair the spectrum, fit it.
 
-Both windows are first cropped to their overlap. Sector energy, pixel by pixel, finds the
-summit there without regard to any sign; at the summit each sector's sign is read off.
+Both windows are first cropped to their overlap. The energy of the light patterns, pixel by
+pixel, finds the summit there; at the summit each sector's sign is read off.
 """
 
 from __future__ import annotations
@@ -17,8 +17,6 @@ from pcnav_study.matching.subpixel import ESTIMATORS
 from pcnav_study.matching.surface import quadratic_peak
 
 DEFAULT = "plane-fit"
-PREFERENCE = 0.3  # share of a negative sector's energy left out in windows above
-LARGE = 96  # px; smaller ones have too few coefficients to bear it
 
 
 def refined(
@@ -31,13 +29,12 @@ def refined(
     overlap = overlap_of(pair, shift)
     if overlap is None:
         return shift, 0.0
-    preference = preference_of(pair)
-    residual, sectors = summit(overlap, around, preference)
+    residual, sectors = summit(overlap, around)
     if np.abs(residual).max() > 1.5:
         moved = overlap_of(pair, overlap.whole + residual)
         if moved is not None:
             overlap = moved
-            residual, sectors = summit(overlap, 1, preference)
+            residual, sectors = summit(overlap, 1)
     bank = overlap.band.bank
     signed = (np.sign(sectors) @ bank.reshape(len(bank), -1)).reshape(bank.shape[1:])
     signed *= overlap.band.sharper
@@ -45,10 +42,8 @@ def refined(
     return overlap.whole + residual, delta_quality(overlap, residual)
 
 
-def summit(
-    overlap: Overlap, around: int, preference: float
-) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-    """The highest sector energy within ``around`` px.
+def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+    """The highest energy of the light patterns within ``around`` px.
 
     Returns
     -------
@@ -60,28 +55,21 @@ def summit(
         _waves(omega.size, float(omega[-1]), bool(omega[0] < 0), around)
         for omega in overlap.band[:2]
     )
-    surfaces = np.matmul(np.matmul(rows, overlap.band.bank * overlap.phasors), cols.T).real
-    total = robust_energy(surfaces, preference)
+    surfaces = np.matmul(np.matmul(rows, overlap.band.patterns * overlap.phasors), cols.T).real
+    total = energy(surfaces)
     row, col = divmod(int(total.argmax()), total.shape[1])
-    residual = np.array([row - around, col - around]) + quadratic_peak(total, (row, col))
-    return residual, surfaces[:, row, col]
+    whole = np.array([row - around, col - around], float)
+    return whole + quadratic_peak(total, (row, col)), overlap.sector_sums(whole)
 
 
-def preference_of(pair: Pair) -> float:
-    """How much more a positive sector's surface counts, relative to its modulus."""
-    return PREFERENCE / (2 - PREFERENCE) if min(pair.moving.shape) >= LARGE else 0.0
+def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Sum over the light patterns (patterns, rows, columns) of the squared surface.
 
-
-def robust_energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
-    """Sum over the sectors (sectors, rows, columns) of the modulus to the power 3/2.
-
-    A positive surface counts ``preference`` more: most pairs meet under suns that flip few
-    sectors. Squares would let one strong sector, where the light is least linear, decide.
+    Half a wave, some 2 px, beside the true shift sectors turn their sign one by one; only at
+    the shift do their heights follow the light.
     """
-    modulus = np.abs(surfaces)
-    modulus += np.float32(preference) * surfaces
-    modulus *= np.sqrt(modulus)
-    total: NDArray[np.float32] = modulus.sum(axis=0)
+    squared = surfaces * surfaces
+    total: NDArray[np.float32] = squared.sum(axis=0)
     return total
 
 

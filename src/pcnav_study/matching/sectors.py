@@ -1,11 +1,12 @@
-"""Sector energy: phase correlation that no sun can break.
+"""Pattern energy: phase correlation that no sun can break.
 
 Between two suns the cross-power spectrum of a shaded relief keeps its fringes and flips
-its sign in whole angular sectors (`phase`). Cut it into sectors, transform each, and add
-the squared surfaces: every sector peaks at the same shift, whatever its sign. Nothing
-about the suns is needed. A small preference for positive sectors breaks ties, and the
-correlation of doubled gradient orientation is added for ground where edges say more
-than shading does. Each of the two surfaces counts in units of its own scatter.
+its sign in whole angular sectors (`phase`). As a function of the angle that sign follows a
+constant and a wave of twice the angle, whatever the suns (`overlap.light_patterns`).
+Weight the spectrum with each of these three, transform, and add the squared surfaces:
+their sum peaks at the shift, and nothing about the suns is needed. The correlation of
+doubled gradient orientation is added for ground where edges say more than shading does.
+Each of the two surfaces counts in units of its own scatter.
 
 The search runs on a grid as coarse as the low-pass allows. At its peak each sector's
 sign is read, the spectrum of the overlap is repaired, and its phase plane fitted.
@@ -20,62 +21,56 @@ from numpy.typing import NDArray
 
 from pcnav_study.matching import spectrum as sp
 from pcnav_study.matching.orientation import orientation_spectrum
-from pcnav_study.matching.overlap import SECTORS, sector_of
+from pcnav_study.matching.overlap import light_patterns
 from pcnav_study.matching.pair import Found, Pair
 from pcnav_study.matching.phase import Search, cross_power
-from pcnav_study.matching.refine import preference_of, refined
+from pcnav_study.matching.refine import energy, refined
 from pcnav_study.matching.surface import Surface
 from pcnav_study.matching.windows import Window
 
 BAND = 0.2  # cycles/px, standard deviation of the Gaussian low-pass
 ORIENTATION = 2.5  # weight of the orientation surface
-NEARBY = 3  # px
+NEARBY = 4  # px, how far around a peak of the first search the last one looks
+CONTENDERS = 4  # peaks of the first search that may be looked at
+CLOSE = 0.6  # share of the first peak's height from which on another one is a contender
+STANDING = 0.02  # of Dirac-delta quality, what one scatter of height is worth among contenders
 TAPER = ("tukey", 0.25)
 
 
 def sector_phase_correlation(pair: Pair) -> Found:
-    """The default method: sector energy, then signs, repair and a sub-pixel estimate.
+    """The default method: pattern energy, then signs, repair and a sub-pixel estimate.
 
-    Small windows try several peaks. The last search, pixel by pixel, is by sector energy
-    alone: near the true shift gradients turn with the sun, so that their correlation peaks
-    some 2 px off it.
+    Peaks of nearly the same height are all looked at; the best sum of quality there and
+    height here wins. The last search, pixel by pixel, is by pattern energy alone: near the
+    true shift gradients turn with the sun, so that their correlation peaks some 2 px off it.
     """
     score = score_surface(pair)
-    contenders = 4 if min(pair.moving.shape) < 48 else 1
-    answers = [
-        refined(pair, np.array(score.origin) + score.step * np.array(peak), NEARBY + score.step - 1)
-        for peak in score.peaks(contenders)
-    ]
-    shift, quality = max(answers, key=lambda answer: answer[1])
-    return Found(score, shift, quality)
+    answers = []
+    for peak in score.peaks(CONTENDERS, CLOSE):
+        start = np.array(score.origin) + score.step * np.array(peak)
+        shift, quality = refined(pair, start, NEARBY + score.step - 1)
+        merit = quality + STANDING * float(score.values[peak])
+        answers.append((merit, Found(score, shift, quality)))
+    return max(answers, key=lambda answer: answer[0])[1]
 
 
-def sector_spectra(pair: Pair, search: Search) -> sp.Spectrum:
-    """Cross-power spectrum of each sector, and last the orientation's, (SECTORS + 1, ...)."""
+def pattern_spectra(pair: Pair, search: Search) -> sp.Spectrum:
+    """Cross-power spectrum times each light pattern, and last the orientation's, (4, ...)."""
     product = cross_power(pair, search, TAPER)
-    stack = np.empty((SECTORS + 1, *product.shape), np.complex64)
-    np.multiply(product, sector_bank(search.shape, search.step), out=stack[:-1])
+    stack = np.empty((4, *product.shape), np.complex64)
+    np.multiply(product, pattern_bank(search.shape, search.step), out=stack[:-1])
     _orientation_product(pair, search, out=stack[-1])
     return stack
 
 
 def score_surface(pair: Pair) -> Surface:
-    """Sector energy plus orientation correlation of every candidate shift."""
+    """Pattern energy plus orientation correlation of every candidate shift."""
     search = Search.of(pair, step_of(pair.reference.shape))
-    spectra = sector_spectra(pair, search)
+    spectra = pattern_spectra(pair, search)
     surfaces = sp.part_of_surface(spectra, search.shape[1] // search.step, search.size)
-    score = _in_scatter(energy(surfaces[:-1], preference_of(pair)))
+    score = _in_scatter(energy(surfaces[:-1]))
     score += np.float32(ORIENTATION) * _in_scatter(surfaces[-1])
     return search.surface(pair, score)
-
-
-def energy(surfaces: NDArray[np.float32], preference: float) -> NDArray[np.float32]:
-    """Sum of the squared surfaces (sectors, rows, columns), a little more of the positive."""
-    modulus = np.abs(surfaces)
-    modulus += np.float32(preference) * surfaces
-    modulus *= modulus
-    total: NDArray[np.float32] = modulus.sum(axis=0)
-    return total
 
 
 def step_of(shape: tuple[int, int]) -> int:
@@ -85,16 +80,14 @@ def step_of(shape: tuple[int, int]) -> int:
 
 
 @lru_cache(maxsize=64)
-def sector_bank(shape: tuple[int, int], step: int) -> NDArray[np.float32]:
-    """Low-passed indicator of each angular sector, (SECTORS, rows, columns)."""
+def pattern_bank(shape: tuple[int, int], step: int) -> NDArray[np.float32]:
+    """Low-passed light patterns, (3, rows, columns)."""
     f_rows, f_cols = sp.frequencies(shape, step)
     squared = f_rows**2 + f_cols**2
     weight = np.exp(-0.5 * squared / BAND**2) * (squared > 0)
     if step > 1:
         weight *= (f_rows > -0.5 / step) & (f_cols < 0.5 / step)
-    bank: NDArray[np.float32] = (
-        (sector_of(f_rows, f_cols) == np.arange(SECTORS)[:, None, None]) * weight
-    ).astype(np.float32)
+    bank: NDArray[np.float32] = (light_patterns(f_rows, f_cols) * weight).astype(np.float32)
     bank.flags.writeable = False
     return bank
 

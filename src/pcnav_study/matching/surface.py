@@ -32,15 +32,22 @@ class Surface:
         row, col = divmod(int(self.values.argmax()), self.values.shape[1])
         return row, col
 
-    def peaks(self, count: int) -> list[tuple[int, int]]:
-        """Indices of the best candidates, best first, at least 3 apart along an axis."""
-        if count == 1:
-            return [self.peak()]
-        left, found = self.values.copy(), []
-        for _ in range(min(count, left.size)):
-            row, col = divmod(int(left.argmax()), left.shape[1])
-            found.append((row, col))
+    def peaks(self, count: int, share: float | None = None) -> list[tuple[int, int]]:
+        """Indices of the best candidates, best first, at least 3 apart along an axis.
+
+        At most ``count``, and with ``share`` none below that part of the first's score.
+        """
+        first = self.peak()
+        found = [first]
+        floor = -np.inf if share is None else share * float(self.values[first])
+        left = self.values.copy()
+        for _ in range(min(count, left.size) - 1):
+            row, col = found[-1]
             left[max(row - 2, 0) : row + 3, max(col - 2, 0) : col + 3] = -np.inf
+            row, col = divmod(int(left.argmax()), left.shape[1])
+            if left[row, col] < floor or np.isneginf(left[row, col]):
+                break
+            found.append((row, col))
         return found
 
     def best_shift(self) -> NDArray[np.float64]:
