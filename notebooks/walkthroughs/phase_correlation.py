@@ -37,6 +37,7 @@ from pcnav_study.matching.derivation import (
     fringes,
     sign_pattern,
 )
+from pcnav_study.matching.overlap import light_patterns
 from pcnav_study.notebook import open_catalog
 from pcnav_study.scene import Grid, SunPosition, shade
 
@@ -210,10 +211,24 @@ assert spread["gentle", 30] < spread["as it is", 30]
 # %% [markdown]
 # ## 6. Blind to every sign
 #
-# **[ours]** Cut $Q$ into angular sectors, transform each one, and add the *squared* surfaces: a sector
-# peaks at the true shift whether it was reversed or not. No sun need be known. At the peak each
-# sector's sign can be read off, the spectrum repaired, and the shift refined below a pixel. That is
-# the study's default, `pc-sectors`.
+# **[ours]** Whatever the two suns, the product of their cosines is a constant and a wave of twice the
+# angle,
+#
+# $$\cos(\theta-\tau_1)\cos(\theta-\tau_2)=\tfrac12\left[\cos(\tau_1-\tau_2)+\cos(2\theta-\tau_1-\tau_2)\right],$$
+#
+# and reflectance, which no sun turns, only adds to the constant. So weigh $Q$ with each of the three
+# patterns $1$, $\cos 2\theta$, $\sin 2\theta$, transform each one, and add the *squared* surfaces: the
+# sum peaks at the true shift under any suns, and none need be known. At the peak each sector's sign
+# is read off, the spectrum repaired, and the shift refined below a pixel. That is the study's
+# default, `pc-sectors`.
+
+# %%
+f_rows, f_cols = np.meshgrid(fft.fftfreq(N), fft.fftfreq(N), indexing="ij")
+basis, angle = light_patterns(f_rows, f_cols).reshape(3, -1).T, np.arctan2(f_rows, f_cols)
+for one, other in np.random.default_rng(3).uniform(0, 2 * np.pi, (5, 2)):
+    light = (np.cos(angle - one) * np.cos(angle - other)).ravel()
+    weights, *_ = np.linalg.lstsq(basis, light, rcond=None)
+    assert np.allclose(basis @ weights, light), "two suns make no other pattern"
 
 # %%
 first = shade(heights, pixel_size, SunPosition(100, 50))
@@ -223,7 +238,7 @@ for difference in differences:
     plain, sectors = (match(*pair, method=method) for method in ("pc", "pc-sectors"))
     miss = {r.method: np.hypot(*(r.shift - true)) for r in (plain, sectors)}
     print(
-        f"{difference:3d} deg: plain misses by {miss['pc']:5.2f} px, sectors by {miss['pc-sectors']:.2f} px"
+        f"{difference:3d} deg: plain misses by {miss['pc']:5.2f} px, patterns by {miss['pc-sectors']:.2f} px"
     )
     assert miss["pc-sectors"] < 1
     if difference == 90:
@@ -232,7 +247,7 @@ for difference in differences:
 
 # %%
 image_row(
-    {"plain, signed": plain_90, "sectors, squared": sectors_90},
+    {"plain, signed": plain_90, "three patterns, squared": sectors_90},
     "Score of every shift at 90° of azimuth difference",
     colours="Viridis",
 )

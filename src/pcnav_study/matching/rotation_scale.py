@@ -4,7 +4,7 @@ The magnitude of a spectrum does not feel a shift, and a rotation or a scale of 
 rotates it or scales it inversely: on a log-polar grid both are shifts. Two suns weight the
 directions of the magnitude differently, |cos(theta - tau)|, so each ring and each direction
 of the logarithm is centred before the grids are matched, and the candidates are judged by
-sector energy of the turned images themselves, which no sun's sign can reach.
+pattern energy of the turned images themselves, which no sun's sign can reach.
 
 References
 ----------
