@@ -3,6 +3,7 @@
 from pcnav_study.figures.flight import flight_errors, flight_map, frame_pictures
 from pcnav_study.figures.light import light_maps, sweep_curves
 from pcnav_study.figures.matches import error_by_sun, match_pictures, success_by_sun
+from pcnav_study.figures.mission import mission_animation, mission_panels
 from pcnav_study.figures.phase import peak_by_azimuth, signs_and_surface
 from pcnav_study.figures.quality import (
     evidence_by_distance,
@@ -23,6 +24,8 @@ __all__ = [
     "image_row",
     "light_maps",
     "match_pictures",
+    "mission_animation",
+    "mission_panels",
     "mistake_pictures",
     "null_histogram",
     "peak_by_azimuth",
