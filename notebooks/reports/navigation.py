@@ -100,6 +100,8 @@ Markdown("\n".join(lines))
 #
 # **[ours]** A flight has arrived if the UAV believes so and is right. It is lost after too many alarms in a
 # row, off the map, or out of time. Odometry has no map and no alarm; it is flown without gusts only.
+# A gust displaces the UAV once, by a tenth of the frame's width up to the size named. The thick line is
+# `pc-sectors`.
 
 # %%
 own = summary[summary["method"] == METHOD]

@@ -228,7 +228,7 @@ def _story(flight: pd.DataFrame, step: int) -> str:
     row = flight.iloc[min(step, len(flight) - 1)]
     name = NAME.get(str(row["method"]), str(row["method"]))
     told = [f"{name}, frame {row['step']}: {row['action']}"]
-    told += [f"<b>{row['ending']}</b>"] if row["ending"] else []
+    told += [f"<b>{_end(row)}</b>"] if row["ending"] else []
     told += [f"<b>alarm</b>: {row['reason']}"] if row["alarm"] else []
     return ", ".join(told) + f"<br><span style='font-size:13px'>{row['note'] or ' '}</span>"
 
@@ -240,14 +240,19 @@ def _told(
     told = []
     for title, (method, flight) in zip(titles, flights.items(), strict=False):
         row = flight.iloc[min(step, len(flight) - 1)]
-        state = row["ending"] or ("alarm: " if row["alarm"] else "") + row["action"]
+        state = _end(row) if row["ending"] else ("alarm: " if row["alarm"] else "") + row["action"]
         text = f"<b>{method}</b>, frame {row['step']}<br>{state}"
         told.append(title | {"text": text, "font": {"size": 13}})
     return told
 
 
+def _end(row: pd.Series) -> str:
+    """How the flight ended for the UAV, and how far from there it really is."""
+    return f"{row['ending']}, off by {row['error_m']:.0f} m"
+
+
 def _path(rows: pd.DataFrame, prefix: str = "") -> Trace:
-    return {axis: _numbers(KM * rows[prefix + name]) for axis, name in AXES}
+    return {axis: _numbers(KM * rows[prefix + name]) or [None] for axis, name in AXES}
 
 
 def _broken(past: pd.DataFrame) -> Trace:

@@ -23,7 +23,7 @@ PART = {
 OUTCOME = {
     "alarm_recall": "gusts that raised an alarm at once",
     "false_alarm_rate": "false alarms among right fixes",
-    "recovery_rate": "flights back on the route, knowing where",
+    "recovery_rate": "flights back on their route",
 }
 Panel = tuple[str, pd.DataFrame]
 
@@ -99,35 +99,32 @@ def alarm_outcomes(table: pd.DataFrame) -> go.Figure:
     Parameters
     ----------
     table : DataFrame
-        Of `pcnav_study.navigation.verdicts.pooled`, by gust and method.
+        Made by `pcnav_study.navigation.verdicts.pooled`, by gust and method.
     """
-    gusts = sorted(table["gust"].unique())
     figure = make_subplots(
-        1, len(gusts), subplot_titles=[_gust(g) for g in gusts], shared_yaxes=True,
+        1, len(OUTCOME), subplot_titles=list(OUTCOME.values()), shared_yaxes=True,
         horizontal_spacing=0.04,
     )  # fmt: skip
     known: set[str] = set()
-    for col, gust in enumerate(gusts, 1):
-        for method, rows in table[table["gust"] == gust].groupby("method", sort=False):
-            shown = rows[rows["outcome"].isin(OUTCOME)]
-            if shown.empty:
-                continue
+    for col, outcome in enumerate(OUTCOME, 1):
+        for method, rows in table[table["outcome"] == outcome].groupby("method", sort=False):
             name = NAME.get(str(method), str(method))
-            told = zip(shown["value"], shown["n"], strict=True)
+            told = zip(rows["value"], rows["n"], strict=True)
             figure.add_bar(
-                x=[_wrapped(OUTCOME[o]) for o in shown["outcome"]], y=shown["value"],
-                error_y={"array": shown["high"] - shown["value"],
-                         "arrayminus": shown["value"] - shown["low"]},
+                x=[f"≤ {gust:g}" for gust in rows["gust"]], y=rows["value"],
+                error_y={"array": rows["high"] - rows["value"],
+                         "arrayminus": rows["value"] - rows["low"]},
                 text=[f"{share:.1%}<br>n = {n}" for share, n in told],
-                textposition=np.where(shown["value"] > 0.2, "inside", "outside").tolist(),
-                insidetextanchor="start", name=name, legendgroup=name,
-                showlegend=name not in known, marker={"color": COLOUR.get(str(method))},
-                row=1, col=col,
+                textposition=np.where(rows["value"] > 0.2, "inside", "outside").tolist(),
+                insidetextanchor="start", insidetextfont={"color": "white"}, textangle=0,
+                name=name, legendgroup=name, showlegend=name not in known,
+                marker={"color": COLOUR.get(str(method))}, row=1, col=col,
             )  # fmt: skip
             known.add(name)
     figure.update_yaxes(range=[0, 1.08], tickformat=".0%")
-    figure.update_xaxes(tickangle=0)
-    return _below(styled(figure, "What the alarm is worth (whiskers: 95 % interval)", 460))
+    figure.update_xaxes(title="largest gust, widths of a frame", type="category")
+    figure.update_annotations(font_size=13)
+    return _below(styled(figure, "What the alarm is worth (whiskers: 95 % interval)", 480))
 
 
 def drift(slopes: pd.DataFrame) -> go.Figure:
@@ -216,18 +213,12 @@ def _look(method: str, known: set[str]) -> dict[str, object]:
 
 
 def _gust(gust: float) -> str:
-    return f"a gust of up to {gust:g} of the frame's width" if gust else "no gust"
+    return f"gust up to {gust:g} frame" if gust else "no gust"
 
 
 def _count(table: pd.DataFrame) -> str:
     low, high = int(table["flights"].min()), int(table["flights"].max())
     return str(low) if low == high else f"{low} to {high}"
-
-
-def _wrapped(words: str) -> str:
-    """Two lines of about equal length."""
-    middle = words.find(" ", len(words) // 2)
-    return words[:middle] + "<br>" + words[middle + 1 :]
 
 
 def _below(figure: go.Figure) -> go.Figure:
