@@ -12,6 +12,11 @@ COLOUR = {
     "pc-solar": "#E69F00",
     "pc-sectors": "#CC79A7",
     "ssd": "#999999",
+    "pc-sectors, alarm off": "#882255",
+    "odometry": "#AA7700",
+    "odometry over relief": "#117733",
+    "odometry, Kalman": "#332288",
+    "odometry and fixes, EKF": "#000000",
 }
 NAME = {
     "pc": "phase correlation (signed peak)",
@@ -21,6 +26,11 @@ NAME = {
     "pc-solar": "phase correlation (known suns)",
     "pc-sectors": "phase correlation (sectors)",
     "ssd": "sum of squared differences",
+    "pc-sectors, alarm off": "phase correlation (sectors), alarm off",
+    "odometry": "visual odometry",
+    "odometry over relief": "visual odometry over relief",
+    "odometry, Kalman": "visual odometry, Kalman filter",
+    "odometry and fixes, EKF": "visual odometry and fixes, EKF",
 }
 
 

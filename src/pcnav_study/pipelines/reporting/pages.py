@@ -91,10 +91,11 @@ def _with_figures(cell: NotebookNode, number: int) -> NotebookNode:
         if _PLOTLY in output.get("data", {}):
             shown = output["data"][_PLOTLY]
             text = plotly.io.to_html(
-                {"data": shown["data"], "layout": shown["layout"]},
+                {name: shown[name] for name in ("data", "layout", "frames") if name in shown},
                 include_plotlyjs=False,
                 full_html=False,
                 validate=False,
+                auto_play=False,
                 div_id=f"figure-{number}-{k}",
                 config={"responsive": True, "displaylogo": False},
             )

@@ -27,6 +27,7 @@ NOTEBOOKS = (
         ("quality_cases", "quality_calibration", "quality_measures", "quality_mistakes"),
     ),
     ("reports", "changing_light", ("light_table", "sweep_table", "break_points")),
+    ("reports", "mission", ("mission_log", "mission_map")),
 )
 
 
