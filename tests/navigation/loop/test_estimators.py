@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from pcnav_study.navigation.loop import navigator
 from pcnav_study.navigation.loop.estimators import Belief, DeadReckoning
 from pcnav_study.navigation.loop.fusion import Kalman
 from pcnav_study.navigation.loop.lookout import Lookout
@@ -76,7 +77,7 @@ class Told(Odometry):
 def test_the_filter_equals_the_kalman_equations(rng):
     of = Instruments(velocity_bias=0.7, velocity_drift=0.1, velocity_noise=0.3)
     seconds, pixel = 8.0, 30.0
-    ways = rng.normal(0, 100, (5, 2))
+    ways = rng.normal(0, 1.0, (5, 2))
     ours = Kalman(ORIGIN, Told(ways, pixel), of)
     mean = np.concatenate([ORIGIN.position, np.zeros(2)])
     spread = np.diag([9.0, 9.0, 0.49, 0.49])
@@ -90,7 +91,7 @@ def test_the_filter_equals_the_kalman_equations(rng):
         return mean + gain @ (value - look @ mean), (np.eye(4) - gain @ look) @ spread
 
     for k, way in enumerate(ways):
-        velocity = rng.normal(0, 20, 2)
+        velocity = rng.normal(0, 0.3, 2)  # within the odometer's gate
         belief = ours.predict(reading(velocity, seconds))
         mean, spread = carry @ mean, carry @ spread @ carry.T + noise
         mean[:2] += seconds * velocity
@@ -110,3 +111,20 @@ def test_a_filter_that_starts_anew_is_where_the_fix_is():
     belief = filter_.correct(np.array([9000.0, 1.0]), 5.0, anew=True)
     np.testing.assert_allclose(belief.position, [9000.0, 1.0])
     assert belief.sigma == pytest.approx(5.0)
+
+
+def test_the_filter_does_not_believe_an_odometer_that_lost_its_ground():
+    filter_ = Kalman(
+        ORIGIN, Told([np.array([80.0, 0.0]), np.array([900.0, 0.0])], 30.0), Instruments()
+    )
+    filter_.predict(reading((10.0, 0.0), 8.0))
+    belief = filter_.predict(reading((10.0, 0.0), 8.0))
+    assert belief.position[0] == pytest.approx(170.0, abs=2.0)
+
+
+def test_after_a_gust_the_fused_navigator_is_as_good_as_before(flight):
+    one = flight(seed=4).with_gust(0.7 * 80 * 30.0, 2)
+    log = list(one.fly(navigator("odometry and fixes, EKF", one)))
+    late = [row["error_m"] for row in log if row["step"] >= 2]
+    assert max(late) < 0.7 * one.chart.pixel
+    assert sum(row["alarm"] for row in log) == 1

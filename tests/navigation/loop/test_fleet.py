@@ -73,9 +73,12 @@ def test_a_task_gives_the_log_of_all_its_flights(relief):
 def flight_rows(number, errors, **columns):
     n = len(errors)
     rows = {
-        "site": "s", "method": "pc", "time": "t", "sun_difference_deg": 30.0,
+        "site": "s", "method": "pc", "sweep": "difference", "time": "t",
+        "sun_difference_deg": 30.0,
         "sun_zenith_deg": 40.0, "gust": 0.0, "flight": number, "step": range(n),
-        "east": np.arange(n) * 1000.0, "north": 0.0, "error_m": errors, "sight_error_m": errors,
+        "east": np.arange(n) * 1000.0, "north": 0.0,
+        "believed_east": np.arange(n) * 1000.0, "believed_north": errors,
+        "error_m": errors, "sight_error_m": errors,
         "next_error_m": errors, "off_route_m": 0.0, "to_end_m": 0.0, "push_m": 0.0,
         "trusted": True, "alarm": False, "ending": [""] * (n - 1) + ["arrived"], "ms": 5.0,
         "pixel_m": 10.0,
@@ -138,19 +141,46 @@ def test_the_next_position_is_not_blamed_for_a_gust_or_a_lost_uav():
     assert navigation_summary(steps, 12.0)["next_rmse_m"].item() == 6.0
 
 
-def test_drift_is_the_slope_of_the_error_with_an_interval():
+def test_drift_is_the_slope_of_what_was_added_since_take_off_with_an_interval_over_routes():
+    grown = [-40.0 + slope * np.arange(6) for slope in (1.0, 2.0, 3.0)]
     steps = pd.concat(
-        [flight_rows(k, 5.0 + slope * np.arange(6)) for k, slope in enumerate((1.0, 2.0, 3.0))]
+        [
+            flight_rows(k, errors, time=time)
+            for k, errors in enumerate(grown)
+            for time in ("morning", "evening")
+        ]
     )
     row = drift_slopes(steps).iloc[0]
     assert row["slope_m_per_km"] == pytest.approx(2.0)
     assert row["slope_low"] == pytest.approx(2.0 - 4.303 / np.sqrt(3), abs=1e-3)
-    assert row["flights"] == 3
+    assert (row["flights"], row["routes"]) == (6, 3)
+
+
+def test_without_calm_flights_the_tables_are_empty_but_whole():
+    steps = flight_rows(1, [0.0] * 3, gust=1.0, push_m=[0.0, 9.0, 0.0])
+    assert drift_slopes(steps).empty and "slope_m_per_km" in drift_slopes(steps)
+    assert lost_from(navigation_summary(steps, 12.0)).columns.tolist()[-1] == "lost_from_deg"
+
+
+def test_the_interval_of_an_error_holds_it_and_shrinks_with_the_flights():
+    rng = np.random.default_rng(1)
+    few, many = (
+        pd.concat([flight_rows(k, np.abs(rng.normal(0, 8, 10))) for k in range(n)])
+        for n in (8, 200)
+    )
+    widths = []
+    for steps in (few, many):
+        row = navigation_summary(steps, 12.0).iloc[0]
+        assert row["rmse_px_low"] < row["rmse_px"] < row["rmse_px_high"]
+        widths.append(row["rmse_px_high"] - row["rmse_px_low"])
+    assert row["rmse_px_low"] < 0.8 < row["rmse_px_high"]
+    assert widths[1] < widths[0] / 2
 
 
 def test_a_method_is_lost_from_the_first_difference_where_flights_fail():
     summary = pd.DataFrame(
-        {"site": "s", "method": "pc", "gust": 0.0, "sun_difference_deg": [90.0, 0.0, 180.0],
+        {"site": "s", "method": "pc", "sweep": "difference", "gust": 0.0,
+         "sun_difference_deg": [90.0, 0.0, 180.0],
          "arrival_rate": [0.4, 1.0, 1.0]}
     )  # fmt: skip
     assert lost_from(summary)["lost_from_deg"].item() == 90.0

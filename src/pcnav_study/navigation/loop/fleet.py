@@ -26,11 +26,15 @@ WITHOUT_MAP = ("odometry", "odometry over relief", "odometry, Kalman")
 
 @dataclass(frozen=True)
 class Light:
-    """The suns of map and flight, and when the flight's is: UTC."""
+    """The suns of map and flight, when the flight's is (UTC), and in which sweep.
+
+    ``sweep`` is "difference" or "hour".
+    """
 
     map_sun: SunPosition
     flight_sun: SunPosition
     time: str
+    sweep: str = "difference"
 
     @property
     def difference(self) -> float:
@@ -83,7 +87,8 @@ def lights_by_hour(
     sun = sun_position(solar_time(day, map_hour, longitude), latitude, longitude)
     times = [solar_time(day, hour, longitude) for hour in hours]
     lights = [
-        Light(sun, sun_position(t, latitude, longitude), f"{t:%Y-%m-%d %H:%MZ}") for t in times
+        Light(sun, sun_position(t, latitude, longitude), f"{t:%Y-%m-%d %H:%MZ}", "hour")
+        for t in times
     ]
     return [light for light in lights if 90 - light.flight_sun.zenith >= lowest]
 
@@ -127,10 +132,11 @@ def fly_all(elevation: xr.DataArray, task: FlightTask) -> pd.DataFrame:
     table = pd.DataFrame(rows)
     table.insert(0, "site", task.site)
     table.insert(1, "method", task.method)
-    table.insert(2, "time", light.time)
-    table.insert(3, "sun_difference_deg", round(light.difference, 1))
-    table.insert(4, "sun_zenith_deg", round(light.flight_sun.zenith, 1))
-    table.insert(5, "gust", task.gust)
+    table.insert(2, "sweep", light.sweep)
+    table.insert(3, "time", light.time)
+    table.insert(4, "sun_difference_deg", float(round(light.difference)))
+    table.insert(5, "sun_zenith_deg", float(round(light.flight_sun.zenith)))
+    table.insert(6, "gust", task.gust)
     table["pixel_m"] = where.chart.pixel
     return table
 

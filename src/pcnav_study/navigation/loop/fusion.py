@@ -1,7 +1,8 @@
 """A Kalman filter over velocity sensor, odometry and fixes, by Stone Soup.
 
 The state is the position and the bias of the velocity sensor. Measured velocity carries
-the position; what odometry shows less tells the bias; fixes tell the position. The models
+the position; what odometry shows less tells the bias, unless it is beyond a gate; fixes tell the
+position. The models
 are linear, so the extended filter equals the plain one [1]_; a non-linear sensor needs no
 other class.
 
@@ -29,6 +30,7 @@ from pcnav_study.navigation.loop.odometry import SIGMA_PX, Odometry
 from pcnav_study.navigation.loop.sensors import Instruments, Observation
 
 Array = NDArray[np.float64]
+GATE = 18.4  # of the squared Mahalanobis distance in the plane: once in 10,000
 POSITION, BIAS = (0, 1), (2, 3)  # in the state: each (east, north)
 
 
@@ -55,7 +57,10 @@ class Kalman:
             self._state, control_input=State(seen.velocity[:, None])
         )
         spread = SIGMA_PX * self._odometry.pixel / seconds
-        return self._measured(seen.velocity - way / seconds, BIAS, spread)
+        shown = seen.velocity - way / seconds
+        if self._explains(shown, spread):
+            return self._measured(shown, BIAS, spread)
+        return self._belief()
 
     def correct(self, position: Array, sigma: float, *, anew: bool = False) -> Belief:
         """Take in a fix; ``anew`` places the state there and keeps the bias."""
@@ -68,6 +73,13 @@ class Kalman:
             self._state = GaussianState(mean, covariance)
             return self._belief()
         return self._measured(position, POSITION, sigma)
+
+    def _explains(self, bias: Array, spread: float) -> bool:
+        """Whether the odometer's word on the bias is within reach; frames may not overlap."""
+        mean = np.asarray(self._state.state_vector, np.float64)[list(BIAS), 0]
+        own = np.asarray(self._state.covar, np.float64)[2:, 2:] + spread**2 * np.eye(2)
+        away = bias - mean
+        return bool(away @ np.linalg.solve(own, away) < GATE)
 
     def _predictor(self, seconds: float) -> ExtendedKalmanPredictor:
         eye, nothing = np.eye(2), np.zeros((2, 2))

@@ -73,7 +73,7 @@ class Lookout:
     Attributes
     ----------
     seconds : dict
-        Processor time spent so far, by part of the work.
+        Wall time spent so far, by part of the work.
     """
 
     chart: Chart

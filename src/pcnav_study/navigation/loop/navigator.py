@@ -52,9 +52,9 @@ class Decision:
     trusted : bool
         False while the UAV does not know where it is.
     quality, probability : float
-        Of the match; NaN without one.
+        Of the first fix, believed or not; NaN without one.
     sighted : (east, north) or None
-        The first fix, believed or not.
+        That fix.
     """
 
     position: Array
@@ -190,8 +190,8 @@ class MapNavigator:
             alarm=bool(reason),
             reason=reason,
             note="; ".join(filter(None, (note, self._pilot.note(position)))),
-            quality=sight.quality,
-            probability=sight.trust.probability,
+            quality=first.quality,
+            probability=first.trust.probability,
             sighted=first.position,
         )
 

@@ -10,6 +10,7 @@ from scipy import stats
 
 from pcnav_study.quality.summary import wilson
 
+RESAMPLES = 1000  # of the bootstrap
 ARRIVED_PX = 5.0  # true distance from the route's end
 RIGHT_PX = 1.0  # a fix as good as that is right
 ASTRAY_PX = 3.0  # a belief worse than that was disturbed before the frame
@@ -27,7 +28,7 @@ COLUMNS = (
     "recovery_rate",
     "ms_per_step",
 )
-KEYS = ["site", "time", "sun_difference_deg", "gust", "method"]
+KEYS = ["site", "sweep", "time", "sun_difference_deg", "gust", "method"]
 
 
 def navigation_summary(steps: pd.DataFrame, corridor_px: float) -> pd.DataFrame:
@@ -63,38 +64,35 @@ def navigation_summary(steps: pd.DataFrame, corridor_px: float) -> pd.DataFrame:
 def drift_slopes(steps: pd.DataFrame) -> pd.DataFrame:
     """How the position's error grows with the way flown without gusts, metres per kilometre.
 
-    A line is fitted to each flight; mean and 95 % t interval are over flights.
+    The error is counted from the one at take-off. A line is fitted to each flight from its
+    second frame on, its slopes are averaged over the suns, and mean and 95 % t interval
+    are over routes.
     """
     calm = steps[steps["gust"] == 0]
     rows = []
     for (site, method), group in calm.groupby(["site", "method"], sort=True):
-        slopes = np.array([_slope(flight) for _, flight in group.groupby(["time", "flight"])])
-        slopes = slopes[np.isfinite(slopes)]
+        flights = [
+            {"flight": number, "slope": _slope(flight)}
+            for (number, _, _), flight in group.groupby(["flight", "sweep", "time"])
+        ]
+        slopes = pd.DataFrame(flights).groupby("flight")["slope"].mean().dropna()
         n = len(slopes)
         error = stats.sem(slopes) * stats.t.ppf(0.975, n - 1) if n > 1 else np.nan
         mean = float(slopes.mean()) if n else np.nan
-        rows.append(
-            {
-                "site": site,
-                "method": method,
-                "flights": n,
-                "slope_m_per_km": mean,
-                "slope_low": mean - error,
-                "slope_high": mean + error,
-            }
-        )
-    return pd.DataFrame(rows)
+        rows.append((site, method, len(flights), n, mean, mean - error, mean + error))
+    columns = ["site", "method", "flights", "routes", "slope_m_per_km", "slope_low", "slope_high"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def lost_from(summary: pd.DataFrame, level: float = 0.95) -> pd.DataFrame:
     """The first sun difference at which fewer than ``level`` of a method's calm flights arrive."""
-    calm = summary[summary["gust"] == 0].sort_values("sun_difference_deg")
+    calm = summary[(summary["gust"] == 0) & (summary["sweep"] == "difference")]
     rows = []
     for (site, method), group in calm.groupby(["site", "method"]):
-        failing = group[group["arrival_rate"] < level]["sun_difference_deg"]
-        first = float(failing.iloc[0]) if len(failing) else np.nan
-        rows.append({"site": site, "method": method, "lost_from_deg": first})
-    return pd.DataFrame(rows)
+        ordered = group.sort_values("sun_difference_deg")
+        failing = ordered[ordered["arrival_rate"] < level]["sun_difference_deg"]
+        rows.append((site, method, float(failing.iloc[0]) if len(failing) else np.nan))
+    return pd.DataFrame(rows, columns=["site", "method", "lost_from_deg"])
 
 
 def _outcome(steps: pd.DataFrame, corridor_px: float) -> dict[str, Any]:
@@ -108,6 +106,7 @@ def _outcome(steps: pd.DataFrame, corridor_px: float) -> dict[str, Any]:
     gusts, calm = steps[steps["push_m"] > 0], steps[steps["undisturbed"]]
     back = [_came_back(f, corridor_px * pixel, pixel) for _, f in flights if f["push_m"].any()]
     low, high = wilson(int(arrived.sum()), len(last))
+    rms_low, rms_high = _rms_interval(trusted)
     return {
         "flights": len(last),
         "arrival_rate": float(arrived.mean()),
@@ -115,6 +114,9 @@ def _outcome(steps: pd.DataFrame, corridor_px: float) -> dict[str, Any]:
         "arrival_high": high,
         "rmse_m": _rms(trusted["error_m"]),
         "rmse_px": _rms(trusted["error_m"]) / pixel,
+        "rmse_px_low": rms_low / pixel,
+        "rmse_px_high": rms_high / pixel,
+        "trusted_frames": len(trusted),
         "rmse_all_m": _rms(steps["error_m"]),
         "max_error_m": float(trusted["error_m"].max()) if len(trusted) else np.nan,
         "next_rmse_m": _rms(ahead["next_error_m"]),
@@ -153,10 +155,25 @@ def _came_back(flight: pd.DataFrame, corridor: float, pixel: float) -> bool:
 
 
 def _slope(flight: pd.DataFrame) -> float:
-    way = np.hypot(flight["east"].diff().fillna(0), flight["north"].diff().fillna(0)).cumsum()
-    if len(flight) < 3 or not np.ptp(way):
+    truth = flight[["east", "north"]].to_numpy(float)
+    wrong = flight[["believed_east", "believed_north"]].to_numpy(float) - truth
+    way = np.hypot(*np.diff(truth, axis=0).T).cumsum()
+    if len(way) < 3 or not np.ptp(way):
         return float("nan")
-    return float(np.polyfit(way / 1000, flight["error_m"], 1)[0])
+    grown = np.hypot(*(wrong[1:] - wrong[0]).T)
+    return float(np.polyfit(way / 1000, grown, 1)[0])
+
+
+def _rms_interval(trusted: pd.DataFrame) -> tuple[float, float]:
+    """95 % percentile bootstrap of the RMSE over flights."""
+    squares = trusted["error_m"] ** 2
+    flights = squares.groupby(trusted["flight"]).agg(["sum", "size"]).to_numpy(float)
+    if len(flights) < 2:
+        return np.nan, np.nan
+    drawn = np.random.default_rng(0).integers(0, len(flights), (RESAMPLES, len(flights)))
+    total = flights[drawn].sum(axis=1)
+    low, high = np.quantile(np.sqrt(total[:, 0] / total[:, 1]), [0.025, 0.975])
+    return float(low), float(high)
 
 
 def _has_alarm(steps: pd.DataFrame) -> bool:

@@ -32,7 +32,7 @@ def step_times(setup: Setup, frame_px: int, flights: int, method: str, seed: int
     Returns
     -------
     DataFrame
-        ``part``, ``ms`` and ``share``; the last row is the whole step. Medians of the
+        ``part``, ``ms``, ``share`` and ``steps``; the last row is the whole step. Medians of the
         parts need not add up to that of the whole.
     """
     shape = (SIDE_PX, SIDE_PX)
@@ -51,11 +51,12 @@ def step_times(setup: Setup, frame_px: int, flights: int, method: str, seed: int
                 laps.append({part: 1e3 * s for part, s in lookout.seconds.items()})
                 laps[-1]["whole step"] = row["ms"]
             lookout.seconds.clear()
-    table = pd.DataFrame(laps).fillna(0.0).median().rename("ms").rename_axis("part").reset_index()
-    whole = float(table.loc[table["part"] == "whole step", "ms"].iloc[0])
-    parts = table[table["part"] != "whole step"]
-    rest = {"part": "decide and steer", "ms": max(whole - float(parts["ms"].sum()), 0.0)}
-    table = pd.concat(
-        [parts, pd.DataFrame([rest]), table[table["part"] == "whole step"]], ignore_index=True
+    table = pd.DataFrame(laps).fillna(0.0)
+    steps = table.pop("whole step")
+    table["decide and steer"] = steps - table.sum(axis=1)
+    table["whole step"] = steps
+    medians = table.median().rename("ms").rename_axis("part").reset_index()
+    whole = float(medians["ms"].iloc[-1])
+    return medians.assign(
+        share=medians["ms"] / whole, steps=len(table), frame_px=frame_px, method=method
     )
-    return table.assign(share=table["ms"] / whole, frame_px=frame_px, method=method)
