@@ -48,10 +48,10 @@ def doubled_orientation(window: Window, step: int) -> NDArray[np.float32]:
 def orientation_spectrum(window: Window, shape: tuple[int, int], step: int) -> sp.Spectrum:
     """Half-plane spectra (2, rows // step, columns // (2 step) + 1) of the doubled orientation.
 
-    Orientation is taken on a grid twice as fine and averaged: sampling it alone would
-    fold its noise into the band.
+    Orientation is taken on a grid twice as fine and averaged, for sampling it alone would
+    fold its noise into the band; large windows can bear that.
     """
-    fine = max(step // 2, 1)
+    fine = 1 if step <= 2 else step
     field = doubled_orientation(window, fine)
     if fine < step:
         field = np.stack([_means(part, step // fine, step // fine) for part in field])
