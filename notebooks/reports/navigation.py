@@ -30,6 +30,7 @@ from pcnav_study.figures import (
     alarm_outcomes,
     arrival_by_sun,
     drift,
+    error_by_hour,
     error_by_sun_difference,
     time_parts,
 )
@@ -39,7 +40,9 @@ from pcnav_study.navigation.verdicts import STEP_MS, pooled, verdicts
 from pcnav_study.notebook import open_catalog
 
 catalog = open_catalog(env=env, versions=versions)
-summary = catalog.load("navigation_summary")
+everything = catalog.load("navigation_summary")
+summary = everything[everything["sweep"] == "difference"]
+by_hour = everything[everything["sweep"] == "hour"]
 slopes = catalog.load("navigation_slopes")
 lost = catalog.load("navigation_lost")
 timing = catalog.load("navigation_timing")
@@ -86,7 +89,7 @@ for row in verdicts(summary, timing, METHOD).to_dict("records"):
     verdict = "holds" if row["holds"] else "**does not hold**"
     bounds = ""
     if not pd.isna(row["low"]):
-        bounds = interval(row)
+        bounds = interval(row) if share else f"{row['low']:.2f} to {row['high']:.2f}"
         beyond = row["low"] < row["limit"] if row["least"] else row["high"] > row["limit"]
         verdict += ", unproven" if row["holds"] and beyond else ""
     found = f"{row['value']:.1%}" if share else f"{row['value']:.2f}"
@@ -151,6 +154,16 @@ formats = dict.fromkeys(table.columns[2:], "{:.0%}") | dict.fromkeys(table.colum
 table.style.format(formats, na_rep="-").hide(axis="index").set_uuid("worst")
 
 # %% [markdown]
+# ## From sunrise to sunset
+#
+# The same map, made at one hour, flown with at every hour of other days.
+
+# %%
+error_by_hour(by_hour) if len(by_hour) else Markdown(
+    "This run flew at no other hours; `kedro run --env=full --pipelines=navigate` does."
+)
+
+# %% [markdown]
 # ## What the alarm is worth
 #
 # The same gusts meet a UAV that heeds the alarm and one that believes every fix. All suns pooled.
@@ -179,8 +192,8 @@ Markdown("\n".join(lines))
 # ## Drift
 #
 # **[literature]** Odometry adds up its errors leg by leg. A fix on the map starts anew every time. The slope
-# is that of a line through the error of each flight without gusts; below zero the error of the take-off
-# wears off. The shorter the flights, the more of the slope is the error of the take-off.
+# is that of a line through what each flight without gusts has added to the error of its take-off, averaged
+# over the suns; the interval is over routes.
 
 # %%
 drift(slopes) if len(slopes) else Markdown("No flight was without gusts.")
@@ -198,7 +211,7 @@ for site, rows in slopes.groupby("site"):
         grows = "grows" if low > 0 else "shrinks" if high < 0 else "no growth to be seen"
         text = f"{row['slope_m_per_km']:+.2f} m per km"
         text += f" ({low:+.2f} to {high:+.2f}): {grows}" if known else ""
-        lines.append(f"- {site}, **{method}**: {text}; n = {row['flights']:.0f} flights.")
+        lines.append(f"- {site}, **{method}**: {text}; n = {row['routes']:.0f} routes.")
 Markdown("\n".join(lines))
 
 # %% [markdown]

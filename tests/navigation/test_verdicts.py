@@ -11,7 +11,8 @@ def row(difference, gust, arrived, rmse, recall=np.nan, false_alarms=0.0):
     return {
         "site": "here", "sun_difference_deg": difference, "gust": gust, "method": "pc-sectors",
         "flights": 20, "arrival_rate": arrived, "arrival_low": arrived - 0.1,
-        "arrival_high": min(arrived + 0.1, 1.0), "rmse_px": rmse, "next_rmse_px": 2 * rmse,
+        "arrival_high": min(arrived + 0.1, 1.0), "rmse_px": rmse, "rmse_px_low": 0.9 * rmse,
+        "rmse_px_high": 1.1 * rmse, "next_rmse_px": 2 * rmse,
         "alarm_recall": recall, "gusts": 20 if gust else 0, "recovery_rate": recall,
         "false_alarm_rate": false_alarms, "right_fixes": 100,
     }  # fmt: skip

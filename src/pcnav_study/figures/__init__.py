@@ -8,6 +8,7 @@ from pcnav_study.figures.navigation import (
     alarm_outcomes,
     arrival_by_sun,
     drift,
+    error_by_hour,
     error_by_sun_difference,
     time_parts,
 )
@@ -26,6 +27,7 @@ __all__ = [
     "alarm_outcomes",
     "arrival_by_sun",
     "drift",
+    "error_by_hour",
     "error_by_sun",
     "error_by_sun_difference",
     "evidence_by_distance",

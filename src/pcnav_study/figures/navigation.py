@@ -93,6 +93,35 @@ def error_by_sun_difference(summary: pd.DataFrame) -> go.Figure:
     return _below(styled(figure, title, 300 * rows + 170))
 
 
+def error_by_hour(summary: pd.DataFrame) -> go.Figure:
+    """RMSE of the trusted position over the time of day, a panel for each site and day."""
+    calm = summary[summary["gust"] == summary["gust"].min()]
+    calm = calm.assign(
+        day=calm["time"].str[:10], hour=pd.to_datetime(calm["time"].str[11:16], format="%H:%M")
+    )
+    panels = list(calm.groupby(["site", "day"], sort=False))
+    figure = make_subplots(
+        len(panels), 1, subplot_titles=[f"{site}, {day}" for (site, day), _ in panels],
+        shared_yaxes=True, vertical_spacing=0.35 / len(panels),
+    )  # fmt: skip
+    known: set[str] = set()
+    for row, (_, panel) in enumerate(panels, 1):
+        for _, method, line in _by_method(panel):
+            line = line.sort_values("hour")
+            figure.add_scatter(
+                x=line["hour"], y=line["rmse_px"],
+                customdata=line[["arrival_rate", "flights", "sun_difference_deg"]],
+                hovertemplate="%{y:.2f} px, %{customdata[0]:.0%} of %{customdata[1]} arrived, suns "
+                "%{customdata[2]:.0f}° apart<extra>" + method + "</extra>",
+                **_look(method, known), row=row, col=1,
+            )  # fmt: skip
+    figure.update_yaxes(type="log", tickvals=PX_TICKS, title="RMSE, px (log)")
+    figure.update_xaxes(tickformat="%H:%M")
+    figure.update_xaxes(title="time of the flight, UTC", row=len(panels))
+    title = f"Error by the hour (n = {_count(calm)} flights a point)"
+    return _below(styled(figure, title, 240 * len(panels) + 170))
+
+
 def alarm_outcomes(table: pd.DataFrame) -> go.Figure:
     """What the alarm catches, what it cries about in vain, and what heeding it is worth.
 
@@ -141,8 +170,8 @@ def drift(slopes: pd.DataFrame) -> go.Figure:
             x=slope, y=[NAME.get(m, m) for m in rows["method"]], mode="markers", name=str(site),
             error_x={"array": high - slope, "arrayminus": slope - low},
             marker={"size": 10, "symbol": k, "color": [COLOUR.get(m) for m in rows["method"]]},
-            customdata=rows[["slope_m_per_km", "flights"]],
-            hovertemplate="%{customdata[0]:.2f} m/km, n = %{customdata[1]}<extra></extra>",
+            customdata=rows[["slope_m_per_km", "routes"]],
+            hovertemplate="%{customdata[0]:.2f} m/km, n = %{customdata[1]} routes<extra></extra>",
             showlegend=slopes["site"].nunique() > 1,
         )  # fmt: skip
     figure.add_vline(x=0, line={"color": "#555", "width": 1})
@@ -151,7 +180,11 @@ def drift(slopes: pd.DataFrame) -> go.Figure:
         tickvals=np.arcsinh(SLOPE_TICKS), ticktext=[str(v) for v in SLOPE_TICKS],
     )  # fmt: skip
     figure.update_yaxes(autorange="reversed", automargin=True)
-    return styled(figure, f"Drift without gusts (n = {_count(slopes)} flights a method)", 440)
+    return styled(
+        figure,
+        f"Drift without gusts (n = {_count(slopes)} flights a method; 95 % over routes)",
+        440,
+    )
 
 
 def time_parts(timing: pd.DataFrame, limit_ms: float = 50.0) -> go.Figure:

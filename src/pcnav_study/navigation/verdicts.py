@@ -97,7 +97,8 @@ def _worst(
     if worst is None:
         worst = rows[column].idxmin() if least else rows[column].idxmax()
     row = rows.loc[worst]
-    interval = (row["arrival_low"], row["arrival_high"]) if column == "arrival_rate" else None
+    ends = {"arrival_rate": "arrival", "rmse_px": "rmse_px"}.get(column)
+    interval = (row[f"{ends}_low"], row[f"{ends}_high"]) if ends else None
     where = f"{row['site']}, suns {row['sun_difference_deg']:.0f}° apart"
     return _entry(
         demand, limit, float(row[column]), least=least, interval=interval,
