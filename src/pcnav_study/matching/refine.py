@@ -17,6 +17,7 @@ from pcnav_study.matching.subpixel import ESTIMATORS
 from pcnav_study.matching.surface import quadratic_peak
 
 DEFAULT = "plane-fit"
+IMPLAUSIBLE = 0.5  # share left out of the energy of a pair reversed as a whole
 
 
 def refined(
@@ -56,7 +57,7 @@ def summit(overlap: Overlap, around: int) -> tuple[NDArray[np.float64], NDArray[
         for omega in overlap.band[:2]
     )
     surfaces = np.matmul(np.matmul(rows, overlap.band.patterns * overlap.phasors), cols.T).real
-    total = energy(surfaces)
+    total = plausible_energy(surfaces)
     row, col = divmod(int(total.argmax()), total.shape[1])
     whole = np.array([row - around, col - around], float)
     return whole + quadratic_peak(total, (row, col)), overlap.sector_sums(whole)
@@ -70,6 +71,20 @@ def energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
     """
     squared = surfaces * surfaces
     total: NDArray[np.float32] = squared.sum(axis=0)
+    return total
+
+
+def plausible_energy(surfaces: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The energy, less half of what is reversed in all directions alike.
+
+    That needs suns almost opposite; half a wave beside the shift of a pair that nothing
+    reverses, it is common.
+    """
+    total = energy(surfaces)
+    constant = surfaces[0]
+    wave = np.sqrt(total - constant * constant)
+    reversed_alike = np.maximum(-constant - wave, 0)
+    total -= np.float32(IMPLAUSIBLE) * reversed_alike * reversed_alike
     return total
 
 
