@@ -101,6 +101,10 @@ def test_a_town_turned_upside_down_is_mostly_refused(tmp_path):
     with rasterio.open(tmp_path / "reference.tif", "w", **profile) as raster:
         raster.write(small)
     wrong = FlightFolder.open(DATA / "fengyuan", str(tmp_path / "reference.tif"))
-    rows = [row for row, _ in localise_flight(wrong, FlightSettings(prior_error_m=40.0))]
+    settings = [
+        FlightSettings(prior_error_m=40.0, prior_offset_m=40.0, seed=seed) for seed in range(3)
+    ]
+    rows = [row for one in settings for row, _ in localise_flight(wrong, one)]
     alarms = flight_table(rows)["alarm"].astype(bool)
+    assert len(alarms) == 93
     assert alarms.mean() >= 0.85
