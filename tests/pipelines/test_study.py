@@ -142,6 +142,11 @@ def test_load_versions_reproduce_an_old_report_exactly(finished):
             ["--pipelines=ingest,simulate,rectify", "--params=rectify.window_px=400"],
             "lower rectify.window_px",
         ),
+        (["--pipelines=mission", "--params=mission.map_hour=2"], "degrees below the horizon"),
+        (["--pipelines=mission", "--params=mission.day=2016-12-21"], "never stands at azimuth"),
+        (["--pipelines=mission", "--params=mission.setup.leg_px=0.2"], "closer than a map pixel"),
+        (["--pipelines=mission", "--params=mission.setup.legs_px=2"], "mission.setup.legs_px = 2"),
+        (["--pipelines=navigate", "--params=navigate.sites=no.tif"], "no.tif cannot be opened"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )

@@ -43,12 +43,13 @@ class Parameters(BaseModel):
         try:
             return super().model_validate(obj, **options)
         except ValidationError as error:
-            faults = [
-                f"{'.'.join(map(str, f['loc']))} = {f['input']!r}: "
-                + f["msg"].removeprefix("Value error, ")
-                for f in error.errors()
-            ]
-            raise ValueError("; ".join(faults)) from None
+            raise ValueError("; ".join(_fault(**fault) for fault in error.errors())) from None
+
+
+def _fault(loc: tuple[int | str, ...], input: Any, msg: str, **_: Any) -> str:
+    """A fault in words; a whole block is named but not repeated."""
+    value = "" if isinstance(input, dict) else f" = {input!r}"
+    return f"{'.'.join(map(str, loc))}{value}: {msg.removeprefix('Value error, ')}"
 
 
 class Ingest(Parameters):
