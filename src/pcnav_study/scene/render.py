@@ -109,16 +109,21 @@ def _marched(
     planes: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Where each ray first passes from above the ground to below it; NaN where it never does."""
-    shape = rays.shape[:2]
-    hit, above = np.full(shape, np.nan), np.full(shape, np.nan)
+    flat = rays.reshape(-1, rays.shape[-1])
+    hit = np.full(len(flat), np.nan)
+    under_way = np.arange(len(flat))
+    above = np.full(len(flat), np.nan)
     for k, plane in enumerate(planes):
-        clearance = plane - _sample(heights, grid, pose, rays, np.full(shape, plane))
+        level = np.full(len(under_way), plane)
+        clearance = plane - _sample(heights, grid, pose, flat[under_way], level)
         if k:
-            crossed = np.isnan(hit) & (clearance <= 0) & (above > 0)
-            share = above / np.where(crossed, above - clearance, 1.0)
-            hit = np.where(crossed, planes[k - 1] + share * (plane - planes[k - 1]), hit)
-        above = clearance
-    return hit
+            before = above[under_way]
+            crossed = (clearance <= 0) & (before > 0)
+            share = before[crossed] / (before - clearance)[crossed]
+            hit[under_way[crossed]] = planes[k - 1] + share * (plane - planes[k - 1])
+            under_way, clearance = under_way[~crossed], clearance[~crossed]
+        above[under_way] = clearance
+    return hit.reshape(rays.shape[:2])
 
 
 def _planes(seen: NDArray[np.float64], grid: Grid, pose: Pose, slant: float) -> NDArray[np.float64]:
