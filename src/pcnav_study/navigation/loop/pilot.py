@@ -73,5 +73,5 @@ class Pilot:
         return f"re-planned: {off:.0f} m off the route, back to it after {along:.0f} m"
 
     def is_over(self, position: Array) -> bool:
-        """True where the route's end is nearer than a quarter of a leg."""
-        return bool(np.hypot(*(position - self.route.waypoints[-1])) < self.leg_m / 4)
+        """True where the route's end is nearer than an eighth of a leg."""
+        return bool(np.hypot(*(position - self.route.waypoints[-1])) < self.leg_m / 8)
