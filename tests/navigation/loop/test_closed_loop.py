@@ -64,11 +64,16 @@ def test_a_gust_raises_the_alarm_and_the_uav_comes_back(flight):
     assert not log.loc[log["push_m"] == 0, "alarm"].any()
 
 
-def test_without_heeding_the_alarm_the_same_gust_loses_it(flight):
-    one = flight(seed=4).with_gust(0.7 * 80 * 30.0, 2)
-    log = flown(one, "pc-sectors, alarm off")
-    assert log["to_end_m"].iloc[-1] > 5 * one.chart.pixel
-    assert not log["alarm"].any()
+def test_without_heeding_the_alarm_the_same_gusts_lose_it(flight):
+    there = {"pc-sectors": 0, "pc-sectors, alarm off": 0}
+    for seed in range(8):
+        one = flight(seed=seed).with_gust(0.7 * 80 * 30.0, 2)
+        for name in there:
+            log = flown(one, name)
+            there[name] += log["to_end_m"].iloc[-1] <= ARRIVED_PX * 30.0
+            assert log["alarm"].any() == (name == "pc-sectors")
+    assert there["pc-sectors"] == 8
+    assert there["pc-sectors, alarm off"] <= 4  # some come back by chance
 
 
 def test_failed_frames_raise_the_alarm_and_are_flown_through(flight):
