@@ -81,7 +81,7 @@ Markdown("\n".join(lines))
 #   next photograph contradicts it;
 # - the **curves** are the error of the position, and of the position predicted one leg before from the
 #   previous photograph. No prediction knows of a gust, so it peaks there;
-# - the **quality** is that of the match which was accepted in the end.
+# - the **quality** is that of the first match, believed or not; what the alarm finds instead is not in it.
 
 # %%
 mission_animation(log, picture, first)
