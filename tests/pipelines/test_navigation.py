@@ -3,6 +3,7 @@
 import json
 
 import pandas as pd
+import pytest
 
 
 def test_mission_page_plays_when_asked_and_comes_out_equal_again(finished):
@@ -24,6 +25,7 @@ def test_mission_page_plays_when_asked_and_comes_out_equal_again(finished):
     assert again.read_bytes() == page.read_bytes()
 
 
+@pytest.mark.slow
 def test_fleet_page_judges_every_demand(finished):
     done = finished.run("--pipelines=navigate", "--params=navigate.jobs=1")
     assert done.returncode == 0, done.stderr

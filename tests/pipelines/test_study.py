@@ -142,11 +142,6 @@ def test_load_versions_reproduce_an_old_report_exactly(finished):
             ["--pipelines=ingest,simulate,rectify", "--params=rectify.window_px=400"],
             "lower rectify.window_px",
         ),
-        (["--pipelines=mission", "--params=mission.map_hour=2"], "degrees below the horizon"),
-        (["--pipelines=mission", "--params=mission.day=2016-12-21"], "never stands at azimuth"),
-        (["--pipelines=mission", "--params=mission.setup.leg_px=0.2"], "closer than a map pixel"),
-        (["--pipelines=mission", "--params=mission.setup.legs_px=2"], "mission.setup.legs_px = 2"),
-        (["--pipelines=navigate", "--params=navigate.sites=no.tif"], "no.tif cannot be opened"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
@@ -155,6 +150,22 @@ def test_bad_input_ends_with_one_sentence_and_no_traceback(project, words, says)
     assert done.returncode == 1
     assert says in done.stderr.split("Error:")[-1]
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--pipelines=mission", "--params=mission.map_hour=2"], "degrees below the horizon"),
+        (["--pipelines=mission", "--params=mission.day=2016-12-21"], "never stands at azimuth"),
+        (["--pipelines=mission", "--params=mission.setup.leg_px=0.2"], "closer than a map pixel"),
+        (["--pipelines=mission", "--params=mission.setup.legs_px=2"], "mission.setup.legs_px = 2"),
+        (["--pipelines=navigate", "--params=navigate.sites=no.tif"], "no.tif cannot be opened"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_a_mission_that_cannot_be_flown_is_refused_in_one_sentence(project, words, says):
+    test_bad_input_ends_with_one_sentence_and_no_traceback(project, words, says)
 
 
 def test_failed_run_keeps_what_was_written_and_says_why(finished):

@@ -186,6 +186,7 @@ def test_a_method_is_lost_from_the_first_difference_where_flights_fail():
     assert lost_from(summary)["lost_from_deg"].item() == 90.0
 
 
+@pytest.mark.slow
 def test_the_parts_of_a_step_are_timed():
     table = step_times(Setup(), 96, 1, "pc-sectors", 3)
     assert table["part"].iloc[-1] == "whole step"
