@@ -31,11 +31,8 @@ def waypoints(
             f"route {list(start)} to {list(end)} leaves the map; "
             "give (row, column) as shares, 0 to 1"
         )
-    grid = Grid.of(elevation)
-    share = ends[0] + np.linspace(0, 1, number)[:, None] * (ends[1] - ends[0])
-    t = grid.transform
-    rows, cols = share[:, 0] * grid.shape[0], share[:, 1] * grid.shape[1]
-    return np.stack([t.c + t.a * cols, t.f + t.e * rows], axis=1)
+    shares = ends[0] + np.linspace(0, 1, number)[:, None] * (ends[1] - ends[0])
+    return Grid.of(elevation).at_shares(shares)
 
 
 def fly(

@@ -81,6 +81,12 @@ class Grid:
         row = inverse.d * x + inverse.e * y + inverse.f - 0.5
         return row, col
 
+    def at_shares(self, shares: ArrayLike) -> NDArray[np.float64]:
+        """Points (n, 2), x and y, from (row, column) as shares of the grid, 0 to 1."""
+        rows, cols = (np.asarray(shares, np.float64) * self.shape).T
+        t = self.transform
+        return np.stack([t.c + t.a * cols, t.f + t.e * rows], axis=1)
+
     def window(self, row: int, col: int, shape: tuple[int, int]) -> Grid:
         """The part of this grid (or beyond it) that starts at (row, col)."""
         return Grid(self.transform @ Affine.translation(col, row), shape, self.crs)

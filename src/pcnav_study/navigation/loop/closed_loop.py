@@ -17,7 +17,6 @@ from pcnav_study.navigation.loop.pilot import Pilot
 from pcnav_study.navigation.loop.sensors import Instruments, Sensors
 from pcnav_study.navigation.loop.world import Air, Aircraft, Scene, push_on_the_map
 from pcnav_study.scene.camera import Camera
-from pcnav_study.scene.sun import SunPosition
 
 Array = NDArray[np.float64]
 BLIND = 0.5  # share of a frame that must show the map
@@ -115,21 +114,14 @@ class Mission:
             planned = decision.next_position
             velocity = self.pilot.air_velocity(decision.position, decision.target, wind)
 
-    def checked(self, suns: tuple[SunPosition, SunPosition]) -> Mission:
+    def checked(self) -> Mission:
         """The mission itself, if it can be flown.
 
         Raises
         ------
         InputError
-            If a sun is below the horizon, the route leaves the map, or the frames are wider
-            than the map can follow.
+            If the UAV would meet a summit, or the route leaves the map.
         """
-        for whose, sun in zip(("map", "flight"), suns, strict=True):
-            if not sun.is_up:
-                raise InputError(
-                    f"the sun of the {whose} is {sun.zenith - 90:.0f} degrees below the horizon: "
-                    "nothing can be seen; choose a daylight time"
-                )
         if self.scene.height <= float(self.scene.elevation.max()):
             raise InputError(
                 f"a flight at {self.scene.height:.0f} m meets the summits at "

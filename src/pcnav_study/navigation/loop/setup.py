@@ -114,7 +114,6 @@ class Place(NamedTuple):
 
     chart: Chart
     scene: Scene
-    suns: tuple[SunPosition, SunPosition]
 
 
 def place(
@@ -147,7 +146,7 @@ def place(
     chart = Chart(pictures[0].astype(np.float32), elevation)
     height = chart.level + setup.frame_px * chart.pixel * setup.camera.focal_px / setup.camera_px
     scene = Scene(pictures[1], elevation, setup.camera, height, setup.noise, setup.haze)
-    return Place(chart, scene, (map_sun, flight_sun))
+    return Place(chart, scene)
 
 
 def mission(
@@ -180,4 +179,4 @@ def mission(
         attitude_sigma=setup.attitude_sigma,
         start_sigma_m=setup.start_sigma_px * chart.pixel,
         gust_m=share * width, gust_step=step, failed_frames=failed, seed=seed,
-    ).checked(where.suns)  # fmt: skip
+    ).checked()  # fmt: skip

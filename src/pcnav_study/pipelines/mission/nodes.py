@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from pcnav_study.navigation.loop import (
@@ -21,7 +20,6 @@ from pcnav_study.navigation.loop.closed_loop import Mission as Flight
 from pcnav_study.navigation.loop.sites import elevation_of
 from pcnav_study.pipelines.parameters import Mission
 from pcnav_study.progress import progress
-from pcnav_study.scene import Grid
 
 logger = logging.getLogger(__name__)
 
@@ -31,10 +29,8 @@ def prepare_mission(plan: Mission) -> tuple[Flight, xr.DataArray]:
     elevation = elevation_of(plan.site)
     light = lights_by_difference(elevation, plan.day, plan.map_hour, [plan.sun_difference])[0]
     where = place(elevation, light.map_sun, light.flight_sun, plan.setup, plan.seed)
-    t, (rows, cols) = Grid.of(elevation).transform, elevation.shape
-    shares = np.array(plan.route)
-    points = np.stack([t.c + t.a * cols * shares[:, 1], t.f + t.e * rows * shares[:, 0]], axis=1)
-    flight = mission(where, plan.setup, plan.seed, Route(points))
+    route = Route(where.chart.grid.at_shares(plan.route))
+    flight = mission(where, plan.setup, plan.seed, route)
     flight = flight.with_gust(plan.gust * flight.frame_m, plan.gust_step)
     logger.info(
         "Mission of %.0f km: map's sun at azimuth %.0f, flight's at %.0f on %s",
